@@ -1,0 +1,6 @@
+# storey_warnings: linked PRIVATE by every target of this project, never exported.
+add_library(storey_warnings INTERFACE)
+target_compile_options(storey_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Woverloaded-virtual
+  -ffp-contract=off  # the same bytes from every compiler and machine
+  $<$<BOOL:${STOREY_WERROR}>:-Werror>)
