@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl/kdtree/kdtree_flann.h>
+#include <storey/filters/cloud_scale.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <random>
+
+namespace storey::detail {
+namespace {
+
+constexpr std::size_t kSamples = 1500;           // neighbourhoods
+constexpr std::size_t kMinNeighbors = 20;        // points
+constexpr std::size_t kMaxNeighbors = 200;       // points
+constexpr std::size_t kPointsPerNeighbor = 100;  // k = n / 100 on small clouds
+constexpr std::size_t kMinPositions = 5;         // a plane has 3 parameters; 2 more tell its noise
+constexpr double kNoiseShare = 0.25;             // of the neighbourhoods lie on one plane, at least
+constexpr double kNoiseQuantile = -0.6745;       // of the normal distribution, at kNoiseShare
+constexpr double kAcceptedDeviations = 2.5;      // of chi-square, above the start
+constexpr double kFlatShare = 0.4;
+constexpr double kFlatRadius = 8.0;  // noise deviations: less than this is no plane
+constexpr std::size_t kThinning = 4;
+constexpr std::size_t kMinThinned = kMaxNeighbors * kPointsPerNeighbor;  // below, k shrinks too
+constexpr double kBoxQuantile = 0.01;
+
+using Cloud = pcl::PointCloud<pcl::PointXYZ>;
+using Tree = pcl::KdTreeFLANN<pcl::PointXYZ>;
+
+struct Neighborhood {
+  double variance = 0.0;  // about its plane, free of bias
+  double flatness = 0.0;  // l3 / (l1 + l2 + l3)
+  double radius = 0.0;    // to the k-th neighbour
+  double points = 0.0;    // duplicates counted
+};
+
+// Value at a share of the sorted order; reorders.
+double quantile(std::vector<double>& values, double share) {
+  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
+}
+
+// One number at random from each of `count` equal strata of [0, n): no repetitions, evenly spread.
+std::vector<std::size_t> drawStratified(std::size_t n, std::size_t count, std::mt19937& random) {
+  std::vector<std::size_t> drawn(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t begin = i * n / count;
+    const std::size_t end = (i + 1) * n / count;
+    drawn[i] = begin + random() % (end - begin);
+  }
+  return drawn;
+}
+
+Neighborhood describe(const Cloud& cloud, const std::vector<std::uint32_t>& multiplicity,
+                      const pcl::Indices& neighbors, double radius) {
+  const Eigen::Vector3d origin =
+      cloud[static_cast<std::size_t>(neighbors[0])].getVector3fMap().cast<double>();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  Neighborhood result;
+  for (const pcl::index_t j : neighbors) {
+    const Eigen::Vector3d d =
+        cloud[static_cast<std::size_t>(j)].getVector3fMap().cast<double>() - origin;
+    sum += d;
+    products += d * d.transpose();
+    result.points += multiplicity[static_cast<std::size_t>(j)];
+  }
+  const auto k = static_cast<double>(neighbors.size());
+  const Eigen::Matrix3d covariance = products / k - (sum / k) * (sum / k).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+  const Eigen::Vector3d l = solver.eigenvalues().cwiseMax(0.0);
+  result.radius = radius;
+  result.flatness = l.sum() > 0.0 ? l(0) / l.sum() : 0.0;
+  const double variance = l(0) * k / (k - 3.0);
+  result.variance = variance * (1.0 + 2.0 * variance / (radius * radius));
+  return result;
+}
+
+struct Sampling {
+  std::vector<Neighborhood> neighborhoods;
+  std::size_t k = 0;
+};
+
+Sampling sampleNeighborhoods(const Tree& tree, const Cloud& cloud,
+                             const std::vector<std::uint32_t>& multiplicity, std::mt19937& random) {
+  const std::size_t n = cloud.size();
+  Sampling result;
+  result.k = std::min(n, std::clamp(n / kPointsPerNeighbor, kMinNeighbors, kMaxNeighbors));
+  pcl::Indices neighbors;
+  std::vector<float> squared_distances;
+  for (const std::size_t i : drawStratified(n, std::min(n, kSamples), random)) {
+    tree.nearestKSearch(cloud[i], static_cast<unsigned>(result.k), neighbors, squared_distances);
+    const auto farthest = std::max_element(squared_distances.begin(), squared_distances.end());
+    result.neighborhoods.push_back(
+        describe(cloud, multiplicity, neighbors, std::sqrt(static_cast<double>(*farthest))));
+  }
+  return result;
+}
+
+// The variance that the flat neighbourhoods share. Each of their estimates scatters about it like
+// chi-square with k - 3 degrees of freedom: relative deviation sqrt(2 / (k - 3)).
+double commonVariance(const Sampling& sampling) {
+  std::vector<double> variances;
+  for (const Neighborhood& s : sampling.neighborhoods) {
+    variances.push_back(s.variance);
+  }
+  const double scatter = std::sqrt(2.0 / (static_cast<double>(sampling.k) - 3.0));
+  // Wilson and Hilferty: the cube root of chi-square is nearly normal.
+  const double ninth = scatter * scatter / 9.0;
+  const double root = 1.0 - ninth + kNoiseQuantile * std::sqrt(ninth);
+  const double start = quantile(variances, kNoiseShare) / (root * root * root);
+  const double limit = start * (1.0 + kAcceptedDeviations * scatter);
+  double sum = 0.0;
+  double count = 0.0;
+  for (const double v : variances) {
+    if (v <= limit) {
+      sum += v;
+      ++count;
+    }
+  }
+  return sum / count;  // at least a quarter of the samples is below the start
+}
+
+double medianRadius(const std::vector<Neighborhood>& samples) {
+  std::vector<double> radii;
+  for (const Neighborhood& s : samples) {
+    radii.push_back(s.radius);
+  }
+  return quantile(radii, 0.5);
+}
+
+double surfaceDensity(std::vector<Neighborhood> samples, double variance) {
+  std::stable_sort(
+      samples.begin(), samples.end(),
+      [](const Neighborhood& a, const Neighborhood& b) { return a.flatness < b.flatness; });
+  const auto flat =
+      static_cast<std::size_t>(std::ceil(kFlatShare * static_cast<double>(samples.size())));
+  std::vector<double> densities;
+  for (std::size_t i = 0; i < flat; ++i) {
+    const Neighborhood& s = samples[i];
+    // Of a ball about a noisy point, the plane meets a disc whose mean squared radius is
+    // r^2 - 2 variance. The median of m / gamma(m) is m / (m - 1/3), and the query is no witness.
+    const double disc = s.radius * s.radius - 2.0 * variance;
+    if (disc > 0.0) {
+      densities.push_back((s.points - 4.0 / 3.0) / (M_PI * disc));
+    }
+  }
+  return densities.empty() ? 0.0 : quantile(densities, 0.5);
+}
+
+double medianSpacing(const Tree& tree, const Cloud& cloud, std::mt19937& random) {
+  std::vector<double> spacings;
+  pcl::Indices neighbors;
+  std::vector<float> squared_distances;
+  for (const std::size_t i :
+       drawStratified(cloud.size(), std::min(cloud.size(), kSamples), random)) {
+    tree.nearestKSearch(cloud[i], 2, neighbors, squared_distances);
+    spacings.push_back(std::sqrt(static_cast<double>(
+        *std::max_element(squared_distances.begin(), squared_distances.end()))));
+  }
+  return quantile(spacings, 0.5);
+}
+
+double robustExtent(const Cloud& cloud) {
+  double squared = 0.0;
+  std::vector<double> values(cloud.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      values[i] = cloud[i].data[axis];
+    }
+    const double low = quantile(values, kBoxQuantile);
+    const double length = quantile(values, 1.0 - kBoxQuantile) - low;
+    squared += length * length;
+  }
+  return std::sqrt(squared);
+}
+
+// One position of every kThinning that follow each other, at random.
+void thin(DistinctPositions& positions, std::mt19937& random) {
+  const Cloud& all = *positions.cloud;
+  auto cloud = pcl::make_shared<Cloud>();
+  std::vector<std::uint32_t> multiplicity;
+  for (const std::size_t i : drawStratified(all.size(), all.size() / kThinning, random)) {
+    cloud->push_back(all[i]);
+    multiplicity.push_back(positions.multiplicity[i]);
+  }
+  positions.cloud = cloud;
+  positions.multiplicity = multiplicity;
+}
+
+}  // namespace
+
+CloudScale estimateCloudScale(const std::vector<Eigen::Vector3f>& input, std::uint32_t seed) {
+  CloudScale scale;
+  DistinctPositions positions = findDistinctPositions(input);
+  if (positions.cloud->size() < 2) {
+    return scale;
+  }
+  std::mt19937 random(seed);
+  auto tree = std::make_unique<Tree>(false);  // unsorted results
+  tree->setInputCloud(positions.cloud);
+  scale.extent = robustExtent(*positions.cloud);
+  scale.spacing = medianSpacing(*tree, *positions.cloud, random);
+  if (positions.cloud->size() < kMinPositions) {
+    return scale;
+  }
+  const auto num_positions = static_cast<double>(positions.cloud->size());
+  while (true) {
+    const Sampling sampling =
+        sampleNeighborhoods(*tree, *positions.cloud, positions.multiplicity, random);
+    const double variance = commonVariance(sampling);
+    const double kept_share = static_cast<double>(positions.cloud->size()) / num_positions;
+    scale.noise = std::sqrt(variance);
+    scale.density = surfaceDensity(sampling.neighborhoods, variance) / kept_share;
+    if (medianRadius(sampling.neighborhoods) >= kFlatRadius * scale.noise ||
+        positions.cloud->size() < kMinThinned * kThinning) {
+      return scale;
+    }
+    thin(positions, random);
+    tree = std::make_unique<Tree>(false);
+    tree->setInputCloud(positions.cloud);
+  }
+}
+
+}  // namespace storey::detail
