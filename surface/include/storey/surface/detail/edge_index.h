@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <storey/segmentation/floorplan.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+namespace storey::detail {
+
+/// A stretch of wall in plan, with the building on its left.
+struct WallStretch {
+  Eigen::Vector2d start;
+  Eigen::Vector2d tangent;  // unit
+  double length = 0.0;
+  int wall = -1;
+
+  Eigen::Vector2d normal() const { return {tangent.y(), -tangent.x()}; }
+};
+
+std::vector<WallStretch> stretchesOf(const Floorplan& plan);
+
+/// Finds the wall that a point belongs to: a uniform grid over the plan that lists the stretches
+/// within `gate` of each cell.
+class EdgeIndex {
+ public:
+  EdgeIndex(std::vector<WallStretch> stretches, double gate);
+
+  /// The stretch nearest to the point across, at most `gate` away, with the point at least
+  /// `margin` (or a quarter of the stretch, if that is less) inside its ends and a normal that
+  /// does not contradict; -1 if there is none. \param normal may be zero: unknown
+  int nearest(const Eigen::Vector2d& point, const Eigen::Vector2d& normal, double margin) const;
+
+  const WallStretch& operator[](std::size_t i) const { return stretches_[i]; }
+  std::size_t size() const { return stretches_.size(); }
+
+ private:
+  std::size_t cellOf(const Eigen::Vector2d& point) const;
+
+  std::vector<WallStretch> stretches_;
+  double gate_ = 0.0;
+  double cell_ = 1.0;
+  Eigen::Vector2d low_;
+  std::ptrdiff_t columns_ = 0;
+  std::ptrdiff_t rows_ = 0;
+  std::vector<std::vector<int>> cells_;
+};
+
+}  // namespace storey::detail

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <storey/segmentation/floorplan.h>
+#include <storey/surface/polyhedral_model.h>
+
+#include <vector>
+
+namespace storey {
+
+/// The closed solid of a stack of floorplans: each layer's outline between its two heights, all
+/// of it on the integer lattice of spacing `grid` [METHOD.md, "Where the paper is wrong" 9].
+///
+/// All outlines are noded together into one arrangement, so that walls and caps of neighbouring
+/// layers use the same vertices; each (cell, layer) is inside or outside, and what lies between
+/// the two is the surface. It is therefore closed whatever the outlines are; rings are read by the
+/// even-odd rule, layers that overlap in height are united, gaps between layers stay gaps.
+/// Vertices and heights move by at most one grid unit; vertices closer than one unit to an edge
+/// are put on it. Coplanar neighbours (within one unit of a common line) are one face.
+/// Layers thinner than the grid after rounding vanish.
+///
+/// Parts that touch only along an edge or at a point become separate shells. Where a part touches
+/// *itself* that way (no 2-manifold in space) a small plug fills the contact: a diamond of
+/// extent / 4096 (at most 256 units, smaller next to short edges), over one layer's height; its
+/// walls are marked hypothetical. `PolyhedralModel::storeys` keeps the layers as given.
+///
+/// A face down is `Ground` where a whole connected part of a layer stands on nothing and nothing
+/// of the building is below it, else `Ceiling`. A wall face takes the wall id, and whether it is
+/// hypothetical, from the larger part of its area.
+///
+/// \param layers at least one with z_min < z_max and a non-empty floorplan; finite coordinates
+/// \param grid in the unit of the layers, > 0; 0 (default): 2^-20 of the largest extent, rounded
+///        up to a power of ten. The extent must be below 2^30 grid units.
+/// \return empty, after a PCL_ERROR, if the input is not as above or nothing is left on the grid
+/// \par Deterministic Vertices and faces are ordered by geometry alone, whatever the order of
+/// components and rings.
+PolyhedralModel extrudeFloorplans(const std::vector<FloorplanLayer>& layers, double grid = 0.0);
+
+}  // namespace storey

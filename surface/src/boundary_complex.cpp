@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <storey/surface/detail/boundary_complex.h>
+#include <storey/surface/detail/union_find.h>
+
+#include <algorithm>
+#include <array>
+
+namespace storey {
+namespace detail {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+class Builder {
+ public:
+  Builder(const PlanArrangement& plan, const SlabLabels& labels)
+      : plan_(plan),
+        labels_(labels),
+        num_half_edges_(static_cast<int>(plan.origin.size())),
+        wall_dart_(at(labels.numSlabs()) * plan.origin.size(), -1),
+        cap_dart_(at(labels.numLevels()) * plan.origin.size(), -1) {}
+
+  BoundaryComplex build() {
+    addWalls();
+    addCaps();
+    for (int h = 0; h < num_half_edges_; h += 2) {
+      for (int level = 0; level < labels_.numLevels(); ++level) pairAtHorizontalEdge(h, level);
+    }
+    for (const std::vector<int>& star : plan_.outgoing) {
+      for (int slab = 0; slab < labels_.numSlabs(); ++slab) pairAtVerticalEdge(star, slab);
+    }
+    numberUmbrellas();
+    numberShells();
+    return std::move(result_);
+  }
+
+ private:
+  bool solidLeft(int half_edge, int slab) const {
+    return labels_.solid(plan_.cell[at(half_edge)], slab);
+  }
+  int& wallDart(int half_edge, int slab) {
+    return wall_dart_[at(slab) * at(num_half_edges_) + at(half_edge)];
+  }
+  int& capDart(int half_edge, int level) {
+    return cap_dart_[at(level) * at(num_half_edges_) + at(half_edge)];
+  }
+  int cornerAt(int vertex, int level) const { return vertex * labels_.numLevels() + level; }
+
+  int addDart(int face, int corner) {
+    result_.element.push_back(face);
+    result_.corner.push_back(corner);
+    result_.next.push_back(-1);
+    result_.prev.push_back(-1);
+    result_.twin.push_back(-1);
+    return static_cast<int>(result_.element.size()) - 1;
+  }
+  void link(int dart, int next) {
+    result_.next[at(dart)] = next;
+    result_.prev[at(next)] = dart;
+  }
+  void pair(int a, int b) {
+    result_.twin[at(a)] = b;
+    result_.twin[at(b)] = a;
+  }
+
+  // Darts of a wall on half-edge u -> v: bottom u v, up at v, top v u, down at u.
+  void addWalls() {
+    for (int h = 0; h < num_half_edges_; ++h) {
+      const int u = plan_.origin[at(h)];
+      const int v = plan_.target(h);
+      for (int k = 0; k < labels_.numSlabs(); ++k) {
+        if (!solidLeft(h, k) || solidLeft(h ^ 1, k)) continue;
+        const int face = static_cast<int>(result_.elements.size());
+        result_.elements.push_back({ElementKind::Wall, h, k});
+        const int first = addDart(face, cornerAt(u, k));
+        addDart(face, cornerAt(v, k));
+        addDart(face, cornerAt(v, k + 1));
+        addDart(face, cornerAt(u, k + 1));
+        for (int i = 0; i < 4; ++i) link(first + i, first + (i + 1) % 4);
+        wallDart(h, k) = first;
+      }
+    }
+  }
+
+  void addCaps() {
+    std::vector<std::vector<int>> sides(plan_.interior.size());
+    for (int h = 0; h < num_half_edges_; ++h) {
+      if (plan_.cell[at(h)] >= 0) sides[at(plan_.cell[at(h)])].push_back(h);
+    }
+    for (int cell = 0; cell < static_cast<int>(sides.size()); ++cell) {
+      for (int level = 0; level < labels_.numLevels(); ++level) {
+        const bool below = labels_.solid(cell, level - 1);
+        if (below != labels_.solid(cell, level)) addCap(cell, level, below, sides[at(cell)]);
+      }
+    }
+  }
+
+  void addCap(int cell, int level, bool up, const std::vector<int>& sides) {
+    const int face = static_cast<int>(result_.elements.size());
+    result_.elements.push_back({up ? ElementKind::CapUp : ElementKind::CapDown, cell, level});
+    for (const int h : sides) {
+      const int from = up ? plan_.origin[at(h)] : plan_.target(h);
+      capDart(h, level) = addDart(face, cornerAt(from, level));
+    }
+    for (const int h : sides) {
+      const int dart = capDart(h, level);
+      const int next = capDart(plan_.next[at(h)], level);
+      up ? link(dart, next) : link(next, dart);
+    }
+  }
+
+  // The (at most four) faces at the edge of half-edge h at a level.
+  void pairAtHorizontalEdge(int h, int level) {
+    const int t = h ^ 1;
+    const bool left_below = solidLeft(h, level - 1);
+    const bool left_above = solidLeft(h, level);
+    const bool right_below = solidLeft(t, level - 1);
+    const bool right_above = solidLeft(t, level);
+    int below = -1;
+    int above = -1;
+    if (left_below != right_below) below = wallDart(left_below ? h : t, level - 1) + 2;
+    if (left_above != right_above) above = wallDart(left_above ? h : t, level);
+    const int left = left_below != left_above ? capDart(h, level) : -1;
+    const int right = right_below != right_above ? capDart(t, level) : -1;
+    std::array<int, 4> faces = {below, left, above, right};
+    const auto end = std::remove(faces.begin(), faces.end(), -1);
+    const auto count = end - faces.begin();
+    if (count == 2) pair(faces[0], faces[1]);
+    if (count < 4) return;
+    pair(below, left_below ? left : right);  // each solid quadrant keeps its own two
+    pair(above, left_below ? right : left);
+  }
+
+  // Walls at a vertex of the plan: each wedge of solid keeps its own two.
+  void pairAtVerticalEdge(const std::vector<int>& star, int slab) {
+    const std::size_t n = star.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!solidLeft(star[i], slab) || solidLeft(star[i] ^ 1, slab)) continue;
+      std::size_t j = (i + 1) % n;
+      while (solidLeft(star[j], slab)) j = (j + 1) % n;
+      pair(wallDart(star[i], slab) + 3, wallDart(star[j] ^ 1, slab) + 1);
+    }
+  }
+
+  void numberUmbrellas() {
+    result_.umbrella.assign(result_.numDarts(), -1);
+    for (int first = 0; first < static_cast<int>(result_.numDarts()); ++first) {
+      if (result_.umbrella[at(first)] >= 0) continue;
+      const int number = static_cast<int>(result_.umbrella_corner.size());
+      result_.umbrella_corner.push_back(result_.corner[at(first)]);
+      int dart = first;
+      do {
+        result_.umbrella[at(dart)] = number;
+        dart = result_.twin[at(result_.prev[at(dart)])];
+      } while (dart != first);
+    }
+  }
+
+  void numberShells() {
+    UnionFind sets(result_.elements.size());
+    for (std::size_t d = 0; d < result_.numDarts(); ++d) {
+      sets.unite(result_.element[d], result_.element[at(result_.twin[d])]);
+    }
+    result_.shell.resize(result_.elements.size());
+    int count = 0;
+    for (int i = 0; i < static_cast<int>(result_.elements.size()); ++i) {
+      const int root = sets.find(i);  // the smallest member: numbered already unless i itself
+      result_.shell[at(i)] = root == i ? count++ : result_.shell[at(root)];
+    }
+  }
+
+  const PlanArrangement& plan_;
+  const SlabLabels& labels_;
+  int num_half_edges_;
+  std::vector<int> wall_dart_;  // [slab][half-edge] -> first dart of the wall
+  std::vector<int> cap_dart_;   // [level][half-edge] -> dart of the cap on its left
+  BoundaryComplex result_;
+};
+
+// Finds the contacts from the darts alone: different edges of the manifold in the same place.
+class PinchFinder {
+ public:
+  PinchFinder(const SlabLabels& labels, const BoundaryComplex& boundary)
+      : labels_(labels), boundary_(boundary) {}
+
+  std::vector<Pinch> find() {
+    addEdges();
+    if (pinches_.empty()) addPoints();  // most points are the ends of such edges
+    return std::move(pinches_);
+  }
+
+ private:
+  struct Place {
+    int from;
+    int to;
+    int shell;
+    bool operator<(const Place& o) const {
+      return std::tie(from, to, shell) < std::tie(o.from, o.to, o.shell);
+    }
+    bool operator==(const Place& o) const {
+      return from == o.from && to == o.to && shell == o.shell;
+    }
+  };
+
+  int shellOf(std::size_t dart) const { return boundary_.shell[at(boundary_.element[dart])]; }
+
+  // Every edge has one dart in each sense, unless the shell is there twice.
+  void addEdges() {
+    std::vector<Place> places;
+    for (std::size_t d = 0; d < boundary_.numDarts(); ++d) {
+      const int from = boundary_.corner[d];
+      const int to = boundary_.corner[at(boundary_.next[d])];
+      if (from < to) places.push_back({from, to, shellOf(d)});
+    }
+    addRepeated(places);
+  }
+
+  void addPoints() {
+    std::vector<Place> places;
+    std::vector<char> seen(boundary_.umbrella_corner.size(), 0);
+    for (std::size_t d = 0; d < boundary_.numDarts(); ++d) {
+      char& known = seen[at(boundary_.umbrella[d])];
+      if (known == 0) places.push_back({boundary_.corner[d], boundary_.corner[d], shellOf(d)});
+      known = 1;
+    }
+    addRepeated(places);
+  }
+
+  void addRepeated(std::vector<Place>& places) {
+    std::sort(places.begin(), places.end());
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      if (!(places[i] == places[i - 1])) continue;
+      const int n = labels_.numLevels();
+      const int slab = std::min(places[i].from % n, labels_.numSlabs() - 1);
+      pinches_.push_back({places[i].from / n, places[i].to / n, slab});
+    }
+  }
+
+  const SlabLabels& labels_;
+  const BoundaryComplex& boundary_;
+  std::vector<Pinch> pinches_;
+};
+
+}  // namespace
+
+BoundaryComplex buildBoundary(const PlanArrangement& plan, const SlabLabels& labels) {
+  return Builder(plan, labels).build();
+}
+
+std::vector<Pinch> findPinches(const SlabLabels& labels, const BoundaryComplex& boundary) {
+  return PinchFinder(labels, boundary).find();
+}
+
+}  // namespace detail
+}  // namespace storey

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <storey/surface/detail/coplanar_regions.h>
+#include <storey/surface/detail/union_find.h>
+
+#include <algorithm>
+
+namespace storey {
+namespace detail {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+// Two walls that meet at a vertical edge.
+struct Candidate {
+  bool different_walls;  // the same wall first
+  int a;                 // elementary faces, a before b along the wall
+  int b;
+
+  bool operator<(const Candidate& o) const {
+    return std::tie(different_walls, a, b) < std::tie(o.different_walls, o.a, o.b);
+  }
+};
+
+class RegionFinder {
+ public:
+  RegionFinder(const PlanArrangement& plan, const BoundaryComplex& boundary,
+               const std::vector<FloorplanEdge>& sources, std::int64_t strip)
+      : plan_(plan),
+        boundary_(boundary),
+        sources_(sources),
+        strip_(strip),
+        sets_(boundary.elements.size()),
+        points_(boundary.elements.size()) {}
+
+  std::vector<int> find() {
+    uniteExact();
+    uniteWalls();
+    return number();
+  }
+
+ private:
+  // Caps of a level, and walls above one another: coplanar without tolerance.
+  void uniteExact() {
+    for (std::size_t d = 0; d < boundary_.numDarts(); ++d) {
+      const Element& face = boundary_.face(static_cast<int>(d));
+      const Element& other = boundary_.face(boundary_.twin[d]);
+      if (face.kind != other.kind) continue;
+      if (face.kind != ElementKind::Wall || face.plan == other.plan) {
+        sets_.unite(boundary_.element[d], boundary_.element[at(boundary_.twin[d])]);
+      }
+    }
+    for (int i = 0; i < static_cast<int>(boundary_.elements.size()); ++i) {
+      const Element& face = boundary_.elements[at(i)];
+      if (face.kind != ElementKind::Wall || sets_.find(i) != i) continue;
+      points_[at(i)] = {plan_.from(face.plan), plan_.to(face.plan)};
+    }
+  }
+
+  void uniteWalls() {
+    for (const Candidate& c : candidates()) {
+      const int a = sets_.find(c.a);
+      const int b = sets_.find(c.b);
+      if (a == b) continue;
+      std::vector<GridPoint> both = points_[at(a)];
+      both.insert(both.end(), points_[at(b)].begin(), points_[at(b)].end());
+      std::sort(both.begin(), both.end());
+      both.erase(std::unique(both.begin(), both.end()), both.end());
+      if (!withinStrip(both, strip_)) continue;
+      sets_.unite(a, b);
+      points_[at(sets_.find(a))] = std::move(both);
+    }
+  }
+
+  std::vector<Candidate> candidates() const {
+    std::vector<Candidate> result;
+    for (std::size_t d = 0; d < boundary_.numDarts(); ++d) {
+      const int a = boundary_.element[d];
+      const int b = boundary_.element[at(boundary_.twin[d])];
+      const Element& first = boundary_.elements[at(a)];
+      const Element& second = boundary_.elements[at(b)];
+      if (first.kind != ElementKind::Wall || second.kind != ElementKind::Wall) continue;
+      if (plan_.target(first.plan) != plan_.origin[at(second.plan)]) continue;
+      const GridPoint u = plan_.to(first.plan) - plan_.from(first.plan);
+      const GridPoint v = plan_.to(second.plan) - plan_.from(second.plan);
+      if (dot(u, v) <= 0) continue;
+      const int wall = sources_[at(a)].wall;
+      result.push_back({wall < 0 || wall != sources_[at(b)].wall, a, b});
+    }
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+  std::vector<int> number() {
+    std::vector<int> region(boundary_.elements.size());
+    int count = 0;
+    for (int i = 0; i < static_cast<int>(region.size()); ++i) {
+      const int root = sets_.find(i);
+      region[at(i)] = root == i ? count++ : region[at(root)];
+    }
+    return region;
+  }
+
+  const PlanArrangement& plan_;
+  const BoundaryComplex& boundary_;
+  const std::vector<FloorplanEdge>& sources_;
+  std::int64_t strip_;
+  UnionFind sets_;
+  std::vector<std::vector<GridPoint>> points_;  // of a region of walls, at its representative
+};
+
+}  // namespace
+
+std::vector<int> findCoplanarRegions(const PlanArrangement& plan, const BoundaryComplex& boundary,
+                                     const std::vector<FloorplanEdge>& sources,
+                                     std::int64_t strip) {
+  return RegionFinder(plan, boundary, sources, strip).find();
+}
+
+}  // namespace detail
+}  // namespace storey

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <storey/surface/detail/coplanar_regions.h>
+#include <storey/surface/detail/face_merging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace storey {
+namespace detail {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+using Ring = std::vector<int>;  // umbrellas
+
+// What is summed up over the elementary faces of a region.
+struct RegionFacts {
+  int first = -1;                      // elementary face
+  bool stands_on_nothing = true;       // cap down: neither supported nor above a part
+  std::map<int, double> area_of_wall;  // by wall id
+  double hypothetical_area = 0.0;
+  double seen_area = 0.0;
+  std::vector<Ring> rings;
+};
+
+class FaceMerger {
+ public:
+  FaceMerger(const PlanArrangement& plan, const SlabLabels& labels, const BoundaryComplex& boundary,
+             const std::vector<FloorplanEdge>& sources, const Lattice& lattice, std::int64_t strip)
+      : plan_(plan),
+        labels_(labels),
+        boundary_(boundary),
+        sources_(sources),
+        lattice_(lattice),
+        region_(findCoplanarRegions(plan, boundary, sources, strip)),
+        kept_(boundary.umbrella_corner.size(), 0) {}
+
+  PolyhedralModel merge() {
+    keepCorners();
+    collectFacts();
+    traceRings();
+    for (std::size_t r = 0; r < facts_.size(); ++r) keepDegenerateRings(facts_[r]);
+    for (RegionFacts& facts : facts_) simplifyRings(facts);
+    return assemble();
+  }
+
+ private:
+  int regionOf(int dart) const { return region_[at(boundary_.element[at(dart)])]; }
+  bool onBorder(int dart) const { return regionOf(dart) != regionOf(boundary_.twin[at(dart)]); }
+  int level(int corner) const { return corner % labels_.numLevels(); }
+  const GridPoint& plan(int corner) const {
+    return plan_.vertices[at(corner / labels_.numLevels())];
+  }
+  int cornerOf(int umbrella) const { return boundary_.umbrella_corner[at(umbrella)]; }
+  int targetCorner(int dart) const { return boundary_.corner[at(boundary_.next[at(dart)])]; }
+
+  // The next dart along the border of the region.
+  int nextOnBorder(int dart) const {
+    int next = boundary_.next[at(dart)];
+    while (!onBorder(next)) next = boundary_.next[at(boundary_.twin[at(next)])];
+    return next;
+  }
+
+  // Where two polygons meet in a line nothing is lost without the corner. A corner that deviates
+  // from that line must stay if another part of the building touches it there.
+  void keepCorners() {
+    std::vector<std::vector<int>> borders(kept_.size());  // darts from the umbrella
+    for (int d = 0; d < static_cast<int>(boundary_.numDarts()); ++d) {
+      if (onBorder(d)) borders[at(boundary_.umbrella[at(d)])].push_back(targetCorner(d));
+    }
+    std::vector<char> corner_kept(plan_.vertices.size() * at(labels_.numLevels()), 0);
+    for (std::size_t u = 0; u < kept_.size(); ++u) {
+      kept_[u] = borders[u].size() > 2;
+      if (kept_[u] != 0) corner_kept[at(boundary_.umbrella_corner[u])] = 1;
+    }
+    for (std::size_t u = 0; u < kept_.size(); ++u) {
+      const int corner = boundary_.umbrella_corner[u];
+      if (kept_[u] != 0 || borders[u].size() != 2 || corner_kept[at(corner)] == 0) continue;
+      if (orient(plan(borders[u][0]), plan(corner), plan(borders[u][1])) != 0) kept_[u] = 1;
+    }
+  }
+
+  void collectFacts() {
+    for (int i = 0; i < static_cast<int>(region_.size()); ++i) {
+      if (at(region_[at(i)]) == facts_.size()) {
+        facts_.emplace_back();
+        facts_.back().first = i;
+      }
+      RegionFacts& facts = facts_[at(region_[at(i)])];
+      const Element& element = boundary_.elements[at(i)];
+      if (element.kind == ElementKind::Wall) addWallFacts(element, sources_[at(i)], facts);
+      if (element.kind == ElementKind::CapDown) {
+        for (int k = 0; k < element.z; ++k) {
+          if (labels_.solid(element.plan, k)) facts.stands_on_nothing = false;
+        }
+      }
+    }
+  }
+
+  void addWallFacts(const Element& wall, const FloorplanEdge& source, RegionFacts& facts) const {
+    const GridPoint d = plan_.to(wall.plan) - plan_.from(wall.plan);
+    const double area =
+        std::sqrt(static_cast<double>(dot(d, d))) *
+        static_cast<double>(labels_.levels[at(wall.z + 1)] - labels_.levels[at(wall.z)]);
+    facts.area_of_wall[source.wall] += area;
+    (source.hypothetical ? facts.hypothetical_area : facts.seen_area) += area;
+  }
+
+  void traceRings() {
+    std::vector<char> done(boundary_.numDarts(), 0);
+    for (int first = 0; first < static_cast<int>(boundary_.numDarts()); ++first) {
+      if (done[at(first)] != 0 || !onBorder(first)) continue;
+      RegionFacts& facts = facts_[at(regionOf(first))];
+      Ring ring;
+      int dart = first;
+      do {
+        done[at(dart)] = 1;
+        ring.push_back(boundary_.umbrella[at(dart)]);
+        noteSupport(dart, facts);
+        dart = nextOnBorder(dart);
+      } while (dart != first);
+      splitAtRepeats(ring, facts.rings);
+    }
+  }
+
+  // The lower side of a part that rests on another one ends there at a wall below.
+  void noteSupport(int dart, RegionFacts& facts) const {
+    const Element& face = boundary_.face(dart);
+    const Element& other = boundary_.face(boundary_.twin[at(dart)]);
+    if (face.kind == ElementKind::CapDown && other.kind == ElementKind::Wall && other.z < face.z) {
+      facts.stands_on_nothing = false;
+    }
+  }
+
+  // A border that passes a corner twice (a hole touching the outside there) becomes two rings.
+  static void splitAtRepeats(const Ring& border, std::vector<Ring>& rings) {
+    Ring path;
+    for (const int umbrella : border) {
+      const auto seen = std::find(path.begin(), path.end(), umbrella);
+      if (seen != path.end()) {
+        rings.emplace_back(seen, path.end());
+        path.erase(seen, path.end());
+      }
+      path.push_back(umbrella);
+    }
+    rings.push_back(path);
+  }
+
+  // A cap between two walls that are nearly one keeps what it needs to have an area.
+  void keepDegenerateRings(const RegionFacts& facts) {
+    for (const Ring& ring : facts.rings) {
+      Ring corners;
+      for (const int u : ring) {
+        if (kept_[at(u)] != 0) corners.push_back(u);
+      }
+      if (corners.size() >= 3 && twiceArea(corners, facts) != 0) continue;
+      for (const int u : ring) kept_[at(u)] = 1;
+    }
+  }
+
+  void simplifyRings(RegionFacts& facts) const {
+    for (Ring& ring : facts.rings) {
+      ring.erase(std::remove_if(ring.begin(), ring.end(), [&](int u) { return kept_[at(u)] == 0; }),
+                 ring.end());
+    }
+  }
+
+  // In the plane of the face, seen from outside; for walls scaled by the length of an edge.
+  Wide twiceArea(const Ring& ring, const RegionFacts& facts) const {
+    const Element& first = boundary_.elements[at(facts.first)];
+    const GridPoint along = first.kind == ElementKind::Wall
+                                ? plan_.to(first.plan) - plan_.from(first.plan)
+                                : GridPoint{};
+    Wide sum = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const int a = cornerOf(ring[i]);
+      const int b = cornerOf(ring[(i + 1) % ring.size()]);
+      if (first.kind == ElementKind::Wall) {
+        sum += static_cast<Wide>(dot(along, plan(a))) * labels_.levels[at(level(b))] -
+               static_cast<Wide>(dot(along, plan(b))) * labels_.levels[at(level(a))];
+      } else {
+        sum += cross(plan(a), plan(b));
+      }
+    }
+    return first.kind == ElementKind::CapDown ? -sum : sum;
+  }
+
+  PolyhedralFace makeFace(const RegionFacts& facts) const {
+    const Element& first = boundary_.elements[at(facts.first)];
+    PolyhedralFace face;
+    face.shell = boundary_.shell[at(facts.first)];
+    for (const Ring& ring : facts.rings) {
+      if (twiceArea(ring, facts) > 0) {
+        face.outer = ring;
+      } else {
+        face.inner.push_back(ring);
+      }
+    }
+    if (first.kind == ElementKind::CapUp) face.label = FaceLabel::Roof;
+    if (first.kind == ElementKind::CapDown) {
+      face.label = facts.stands_on_nothing ? FaceLabel::Ground : FaceLabel::Ceiling;
+    }
+    if (first.kind == ElementKind::Wall) {
+      const auto larger = [](const auto& a, const auto& b) { return a.second < b.second; };
+      face.wall =
+          std::max_element(facts.area_of_wall.begin(), facts.area_of_wall.end(), larger)->first;
+      face.hypothetical = facts.hypothetical_area > facts.seen_area;
+    }
+    return face;
+  }
+
+  // Vertices ascend by place, those in one place by umbrella.
+  std::vector<int> addVertices(PolyhedralModel& model) const {
+    std::vector<int> number(kept_.size(), -1);
+    std::vector<int> order;
+    for (std::size_t u = 0; u < kept_.size(); ++u) {
+      if (kept_[u] != 0) order.push_back(static_cast<int>(u));
+    }
+    std::sort(order.begin(), order.end(), [&](int a, int b) {
+      return std::make_pair(cornerOf(a), a) < std::make_pair(cornerOf(b), b);
+    });
+    for (const int u : order) {
+      const int corner = cornerOf(u);
+      number[at(u)] = static_cast<int>(model.vertices.size());
+      model.vertices.emplace_back(lattice_.toDouble(plan(corner).x, 0),
+                                  lattice_.toDouble(plan(corner).y, 1),
+                                  lattice_.toDouble(labels_.levels[at(level(corner))], 2));
+    }
+    return number;
+  }
+
+  PolyhedralModel assemble() const {
+    PolyhedralModel model;
+    model.grid = lattice_.grid;
+    const std::vector<int> number = addVertices(model);
+    const auto renumber = [&](Ring& ring) {
+      for (int& u : ring) u = number[at(u)];
+      std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+    };
+    for (const RegionFacts& facts : facts_) {
+      PolyhedralFace face = makeFace(facts);
+      renumber(face.outer);
+      for (Ring& ring : face.inner) renumber(ring);
+      std::sort(face.inner.begin(), face.inner.end());
+      model.num_shells = std::max(model.num_shells, face.shell + 1);
+      model.faces.push_back(std::move(face));
+    }
+    std::stable_sort(
+        model.faces.begin(), model.faces.end(),
+        [](const PolyhedralFace& a, const PolyhedralFace& b) { return a.shell < b.shell; });
+    return model;
+  }
+
+  const PlanArrangement& plan_;
+  const SlabLabels& labels_;
+  const BoundaryComplex& boundary_;
+  const std::vector<FloorplanEdge>& sources_;
+  const Lattice& lattice_;
+  std::vector<int> region_;         // elementary face -> region
+  std::vector<char> kept_;          // umbrella -> becomes a vertex
+  std::vector<RegionFacts> facts_;  // by region
+};
+
+}  // namespace
+
+PolyhedralModel mergeFaces(const PlanArrangement& plan, const SlabLabels& labels,
+                           const BoundaryComplex& boundary,
+                           const std::vector<FloorplanEdge>& sources, const Lattice& lattice,
+                           std::int64_t strip) {
+  return FaceMerger(plan, labels, boundary, sources, lattice, strip).merge();
+}
+
+}  // namespace detail
+}  // namespace storey
