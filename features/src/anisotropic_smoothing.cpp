@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <storey/features/detail/anisotropic_smoothing.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace storey::detail {
+namespace {
+
+constexpr int kMaxIterations = 50;
+// The normals rest when they turn by less than this (root mean square, rad: 0.1 degree).
+constexpr double kRestingTurn = 1.7453293e-3;
+constexpr std::size_t kBlock = 4096;  // points whose change is summed in one go, by one thread
+
+float inverseSquare(double sigma) {
+  return sigma > 0.0 ? static_cast<float>(1.0 / (sigma * sigma)) : 0.0f;
+}
+
+float inverseOfPsi(double sigma_n) { return static_cast<float>(1.0 / (1.0 - std::cos(sigma_n))); }
+
+// Equation (2), left: phi(d) = exp(-(d / sigma_p)^2).
+std::vector<float> phiOf(const std::vector<float>& distances, double sigma_p) {
+  const float inverse = inverseSquare(sigma_p);
+  std::vector<float> phi(distances.size());
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    phi[i] = fastExpOfMinus(distances[i] * distances[i] * inverse);
+  }
+  return phi;
+}
+
+// The neighbours of one point: their normals are gathered first, so that the exponentials run
+// over a flat array.
+class Kernel {
+ public:
+  explicit Kernel(const SmoothingParameters& parameters)
+      : inverse_psi_(inverseOfPsi(parameters.sigma_n)),
+        alpha_(static_cast<float>(parameters.alpha)) {}
+
+  void clear(std::size_t capacity) {
+    normals_.clear();
+    weights_.clear();
+    normals_.reserve(capacity);
+    weights_.reserve(capacity);
+  }
+
+  void add(const Eigen::Vector4f& normal, float phi) {
+    normals_.push_back(normal);
+    weights_.push_back(phi);
+  }
+
+  // Equation (3) with psi of equation (2), right. Without any weight the normal stays.
+  Eigen::Vector4f update(const Eigen::Vector4f& normal, const Eigen::Vector4f& prior) {
+    const std::size_t n = normals_.size();
+    exponents_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const float t = (1.0f - normal.dot(normals_[k])) * inverse_psi_;
+      exponents_[k] = t * t;
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      weights_[k] *= fastExpOfMinus(exponents_[k]);
+    }
+    Eigen::Vector4f sum = alpha_ * prior;
+    for (std::size_t k = 0; k < n; ++k) {
+      sum += weights_[k] * normals_[k];
+    }
+    const float length = sum.norm();
+    if (!(length > 0.0f)) {
+      return normal;
+    }
+    return sum * ((sum.dot(prior) < 0.0f ? -1.0f : 1.0f) / length);
+  }
+
+ private:
+  float inverse_psi_;
+  float alpha_;
+  std::vector<Eigen::Vector4f> normals_;
+  std::vector<float> weights_;
+  std::vector<float> exponents_;
+};
+
+// Updates the points [begin, end) and returns the sum of their squared changes.
+double updateBlock(const PaddedNormals& priors, const PaddedNormals& normals,
+                   const Neighborhoods& hoods, const std::vector<float>& phi, std::size_t begin,
+                   std::size_t end, Kernel& kernel, PaddedNormals& updated) {
+  double change = 0.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::uint32_t row = hoods.row_of_point[i];
+    if (row == Neighborhoods::kNoRow || priors[i].isZero()) {
+      continue;
+    }
+    kernel.clear(hoods.first[row + 1] - hoods.first[row]);
+    for (std::size_t k = hoods.first[row]; k < hoods.first[row + 1]; ++k) {
+      // In the row of a copy the point itself stands where its representative belongs.
+      const std::uint32_t j = hoods.neighbor[k];
+      const std::uint32_t other = j == i ? hoods.representative[row] : j;
+      kernel.add(normals[other], phi[k]);
+    }
+    updated[i] = kernel.update(normals[i], priors[i]);
+    change += static_cast<double>((updated[i] - normals[i]).squaredNorm());
+  }
+  return change;
+}
+
+}  // namespace
+
+double medianReach(const Neighborhoods& hoods) {
+  std::vector<float> reach;
+  for (std::size_t row = 0; row < hoods.numRows(); ++row) {
+    const auto begin = hoods.distance.begin() + static_cast<std::ptrdiff_t>(hoods.first[row]);
+    const auto end = hoods.distance.begin() + static_cast<std::ptrdiff_t>(hoods.first[row + 1]);
+    if (begin != end) {
+      reach.push_back(*std::max_element(begin, end));
+    }
+  }
+  if (reach.empty()) {
+    return 0.0;
+  }
+  const auto middle = reach.begin() + static_cast<std::ptrdiff_t>(reach.size() / 2);
+  std::nth_element(reach.begin(), middle, reach.end());
+  return static_cast<double>(*middle);
+}
+
+PaddedNormals smoothNormals(const PaddedNormals& priors, const Neighborhoods& hoods,
+                            const SmoothingParameters& parameters, int* iterations) {
+  const std::vector<float> phi = phiOf(hoods.distance, parameters.sigma_p);
+  PaddedNormals normals = priors;
+  PaddedNormals updated = priors;
+  const std::size_t n = priors.size();
+  const auto num_blocks = static_cast<std::ptrdiff_t>((n + kBlock - 1) / kBlock);
+  std::vector<double> change(static_cast<std::size_t>(num_blocks));
+  const int limit = parameters.iterations > 0 ? parameters.iterations : kMaxIterations;
+  int done = 0;
+  for (bool moving = n > 0; moving && done < limit; ++done) {
+#pragma omp parallel num_threads(parameters.num_threads)
+    {
+      Kernel kernel(parameters);
+#pragma omp for schedule(dynamic, 1)
+      for (std::ptrdiff_t b = 0; b < num_blocks; ++b) {
+        const std::size_t begin = static_cast<std::size_t>(b) * kBlock;
+        change[static_cast<std::size_t>(b)] = updateBlock(
+            priors, normals, hoods, phi, begin, std::min(n, begin + kBlock), kernel, updated);
+      }
+    }
+    normals.swap(updated);
+    double sum = 0.0;
+    for (const double c : change) {
+      sum += c;
+    }
+    const double resting = kRestingTurn * kRestingTurn * static_cast<double>(n);
+    moving = parameters.iterations > 0 || sum > resting;
+  }
+  *iterations = done;
+  return normals;
+}
+
+Eigen::Vector4f updatedNormal(const Eigen::Vector4f& normal, const Eigen::Vector4f& prior,
+                              const std::vector<std::uint32_t>& neighbors,
+                              const std::vector<float>& distances, const PaddedNormals& normals,
+                              const SmoothingParameters& parameters) {
+  const std::vector<float> phi = phiOf(distances, parameters.sigma_p);
+  Kernel kernel(parameters);
+  kernel.clear(neighbors.size());
+  for (std::size_t k = 0; k < neighbors.size(); ++k) {
+    kernel.add(normals[neighbors[k]], phi[k]);
+  }
+  return kernel.update(normal, prior);
+}
+
+}  // namespace storey::detail
