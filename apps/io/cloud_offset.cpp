@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/cloud_offset.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "io/point_index.h"
+
+namespace storey::io {
+namespace {
+
+constexpr double kLowQuantile = 0.01;
+constexpr double kFarInExtents = 8.0;           // farther out than this an axis gets an offset
+constexpr std::size_t kSampleSize = 1u << 16;   // points: quantiles within 0.2 % of their rank
+constexpr double kMaxUsableCoordinate = 1e300;  // differences of such numbers stay finite
+constexpr double kMinUsableExtent = 1e-290;     // and so do reciprocals of such powers of ten
+
+using Axes = std::array<std::vector<double>, 3>;
+
+std::uint64_t hashPoint(const double* point) {
+  std::uint64_t hash = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, point + axis, sizeof bits);
+    hash = mixBits(hash ^ bits);
+  }
+  return hash;
+}
+
+/// Every `stride`-th point on average, chosen by its coordinates so that the order of the points
+/// does not matter.
+Axes sampleAxes(const std::vector<double>& positions, std::uint64_t stride) {
+  Axes axes;
+  for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
+    const double* const point = &positions[i];
+    const bool usable = std::all_of(point, point + 3, [](double coordinate) {
+      return std::abs(coordinate) < kMaxUsableCoordinate;
+    });
+    if (!usable || (stride > 1 && hashPoint(point) % stride != 0)) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) axes[axis].push_back(point[axis]);
+  }
+  return axes;
+}
+
+double quantile(std::vector<double>& values, double share) {
+  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
+}
+
+struct Range {
+  Eigen::Vector3d low;
+  Eigen::Vector3d high;
+
+  double extent() const { return (high - low).maxCoeff(); }
+};
+
+/// From the quantile `share` to the quantile 1 - `share` of each axis.
+Range rangeOf(Axes& axes, double share) {
+  Range range;
+  for (int axis = 0; axis < 3; ++axis) {
+    range.low[axis] = quantile(axes[static_cast<std::size_t>(axis)], share);
+    range.high[axis] = quantile(axes[static_cast<std::size_t>(axis)], 1.0 - share);
+  }
+  return range;
+}
+
+/// k 10^exponent, correctly rounded.
+double roundNumber(double k, int exponent) {
+  return exponent < 0 ? k / std::pow(10.0, -exponent) : k * std::pow(10.0, exponent);
+}
+
+}  // namespace
+
+Eigen::Vector3d chooseOffset(const std::vector<double>& positions) {
+  Axes axes = sampleAxes(positions, positions.size() / 3 / kSampleSize + 1);
+  if (axes[0].empty()) axes = sampleAxes(positions, 1);  // few places, and none of them sampled
+  if (axes[0].empty()) return Eigen::Vector3d::Zero();
+
+  Range range = rangeOf(axes, kLowQuantile);
+  if (range.extent() == 0.0) range = rangeOf(axes, 0.0);  // nearly all points in one place
+  const auto& [low, high] = range;
+  const double extent = range.extent();
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  if (!(extent > kMinUsableExtent)) return offset;
+  const int exponent = static_cast<int>(std::floor(std::log10(extent)));
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::max(std::abs(low[axis]), std::abs(high[axis])) <= kFarInExtents * extent) continue;
+    offset[axis] = roundNumber(std::floor(low[axis] / roundNumber(1.0, exponent)), exponent);
+  }
+  return offset;
+}
+
+}  // namespace storey::io

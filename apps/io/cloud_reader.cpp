@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/cloud_reader.h"
+
+#include <array>
+#include <cmath>
+
+#include "io/cloud_offset.h"
+#include "io/failure.h"
+#include "io/input_file.h"
+#include "io/pcd_reader.h"
+#include "io/ply_reader.h"
+#include "io/point_index.h"
+
+namespace storey::io {
+namespace {
+
+// The square of a distance between points closer to the origin than this fits into a float.
+constexpr double kMaxLocalCoordinate = 1e18;
+
+RawCloud readRaw(InputFile& file, std::uint64_t max_memory) {
+  const std::string_view start = file.peek(16);
+  if (start.substr(0, 4) == "ply\n" || start.substr(0, 5) == "ply\r\n") {
+    return readPlyCloud(file, max_memory);
+  }
+  for (const char* first : {"#", "VERSION", "FIELDS", "COLUMNS"}) {
+    if (start.rfind(first, 0) == 0) return readPcd(file, max_memory);
+  }
+  file.fail("is neither a PCD nor a PLY file", "convert the cloud to one of the two");
+}
+
+std::array<float, 3> unitNormal(const RawCloud& raw, std::size_t i) {
+  if (!raw.has_normal_fields) return {0.0f, 0.0f, 0.0f};
+  const Eigen::Vector3d normal =
+      Eigen::Map<const Eigen::Vector3f>(&raw.normals[3 * i]).cast<double>();
+  const double length = normal.norm();
+  if (!(length > 0.0) || !std::isfinite(length)) return {0.0f, 0.0f, 0.0f};
+  const Eigen::Vector3f unit = (normal / length).cast<float>();
+  return {unit.x(), unit.y(), unit.z()};
+}
+
+/// Of several normals at one place the greatest one stays: a choice that does not depend on the
+/// order of the points and prefers any normal to none.
+void mergeNormal(const std::array<float, 3>& normal, pcl::PointNormal& point) {
+  const std::array<float, 3> old = {point.normal_x, point.normal_y, point.normal_z};
+  constexpr std::array<float, 3> kNone = {0.0f, 0.0f, 0.0f};
+  if (normal == kNone || (old != kNone && !(old < normal))) return;
+  point.normal_x = normal[0];
+  point.normal_y = normal[1];
+  point.normal_z = normal[2];
+}
+
+void addPoint(const RawCloud& raw, std::size_t i, PointIndex& index, LoadedCloud& loaded) {
+  const Eigen::Vector3d local =
+      Eigen::Map<const Eigen::Vector3d>(&raw.positions[3 * i]) - loaded.offset;
+  if (!(local.cwiseAbs().maxCoeff() < kMaxLocalCoordinate)) {
+    ++loaded.dropped_non_finite;
+    return;
+  }
+  const Eigen::Vector3f position = local.cast<float>() + Eigen::Vector3f::Zero();  // -0 becomes 0
+  const std::array<float, 3> normal = unitNormal(raw, i);
+  const std::uint32_t known = index.findOrAdd({position.x(), position.y(), position.z()});
+  if (known < loaded.cloud->size()) {
+    ++loaded.collapsed_duplicates;
+    mergeNormal(normal, (*loaded.cloud)[known]);
+    return;
+  }
+  loaded.cloud->points.emplace_back(position.x(), position.y(), position.z(), normal[0], normal[1],
+                                    normal[2]);
+}
+
+void judgeNormals(const RawCloud& raw, LoadedCloud& loaded) {
+  for (const pcl::PointNormal& point : *loaded.cloud) {
+    if (point.getNormalVector3fMap().isZero(0.0f)) ++loaded.zero_normals;
+  }
+  const auto size = static_cast<double>(loaded.cloud->size());
+  const double usable = size - static_cast<double>(loaded.zero_normals);
+  loaded.has_normals = raw.has_normal_fields && usable >= kMinShareOfNormals * size;
+  if (loaded.has_normals) return;
+  for (pcl::PointNormal& point : *loaded.cloud) point.getNormalVector3fMap().setZero();
+}
+
+}  // namespace
+
+LoadedCloud readCloud(const std::string& path, const CloudReaderOptions& options) {
+  InputFile file(path, options.max_bytes);
+  const RawCloud raw = readRaw(file, options.max_memory);
+
+  LoadedCloud loaded;
+  loaded.cloud.reset(new pcl::PointCloud<pcl::PointNormal>);
+  loaded.format = raw.format;
+  loaded.declared = raw.declared;
+  loaded.offset = chooseOffset(raw.positions);
+  loaded.cloud->points.reserve(raw.size());
+  PointIndex index(raw.size());
+  for (std::size_t i = 0; i < raw.size(); ++i) addPoint(raw, i, index, loaded);
+  loaded.cloud->width = static_cast<std::uint32_t>(loaded.cloud->points.size());
+  loaded.cloud->height = 1;
+  loaded.cloud->is_dense = true;
+  if (loaded.cloud->size() < kMinDistinctPoints) {
+    file.fail("has " + std::to_string(loaded.cloud->size()) + " distinct finite points of " +
+                  std::to_string(raw.declared) + ", at least " +
+                  std::to_string(kMinDistinctPoints) + " are needed",
+              "check the export of the cloud");
+  }
+  judgeNormals(raw, loaded);
+  return loaded;
+}
+
+}  // namespace storey::io

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <storey/surface/triangulation.h>
+
+#include "io/model_io.h"
+
+namespace storey::io {
+
+PolygonSoup toPolygons(const PolyhedralModel& model) {
+  PolygonSoup soup;
+  soup.vertices = model.vertices;
+  for (const PolyhedralFace& face : model.faces) {
+    PolygonSoup::Polygon polygon;
+    polygon.label = static_cast<std::uint8_t>(face.label);
+    polygon.wall = face.wall;
+    polygon.shell = face.shell;
+    polygon.hypothetical = face.hypothetical;
+    if (face.inner.empty()) {
+      polygon.corners = face.outer;
+      soup.polygons.push_back(polygon);
+      continue;
+    }
+    for (std::vector<int>& piece : splitHoles(model, face)) {
+      polygon.corners = std::move(piece);
+      soup.polygons.push_back(polygon);
+    }
+  }
+  return soup;
+}
+
+void writeModelPly(const std::string& path, const PolyhedralModel& model,
+                   const Eigen::Isometry3d& local_to_input, PlyEncoding encoding) {
+  writePolygonsPly(path, toPolygons(model), local_to_input, encoding);
+}
+
+void writeModelObj(const std::string& path, const PolyhedralModel& model,
+                   const Eigen::Isometry3d& local_to_input) {
+  writePolygonsObj(path, toPolygons(model), local_to_input);
+}
+
+}  // namespace storey::io

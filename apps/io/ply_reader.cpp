@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/ply_reader.h"
+
+#include "io/limits.h"
+#include "io/ply_header.h"
+#include "io/ply_rows.h"
+
+namespace storey::io {
+namespace {
+
+std::vector<PointField> fieldsOf(const PlyElement& vertex) {
+  std::vector<PointField> fields;
+  std::size_t offset = 0;
+  for (const PlyProperty& property : vertex.properties) {
+    PointField field;
+    field.name = property.name;
+    field.type = property.type;
+    field.is_list = property.is_list;
+    field.index = fields.size();
+    field.offset = offset;
+    offset += sizeOf(property.type);
+    fields.push_back(field);
+  }
+  return fields;
+}
+
+/// The way for vertices with lists, whose rows differ in length.
+void readRowByRow(InputFile& file, const PlyElement& vertex, PlyFormat format,
+                  const PointColumns& columns, RawCloud& raw) {
+  const std::size_t num_columns = columns.hasNormals() ? 6 : 3;
+  std::array<double, 6> values{};
+  PlyRows rows(file, vertex, format);
+  for (std::uint64_t i = 0; i < vertex.count; ++i) {
+    rows.next();
+    for (std::size_t c = 0; c < num_columns; ++c) values[c] = rows.scalar(columns.field[c]);
+    raw.add(values);
+  }
+}
+
+RawCloud readVertices(InputFile& file, const PlyElement& vertex, PlyFormat format,
+                      std::uint64_t max_memory) {
+  if (vertex.count == 0) file.fail("declares no points");
+  if (vertex.count > kMaxPoints) {
+    file.fail("declares " + std::to_string(vertex.count) + " points, the limit is " +
+                  std::to_string(kMaxPoints),
+              "cut the building out of the cloud");
+  }
+  file.checkMemory(vertex.count * kLoaderBytesPerPoint, max_memory,
+                   std::to_string(vertex.count) + " points");
+  const std::vector<PointField> fields = fieldsOf(vertex);
+  const PointColumns columns = findPointColumns(fields, file);
+  RawCloud raw;
+  raw.declared = vertex.count;
+  raw.has_normal_fields = columns.hasNormals();
+  raw.format = std::string("ply ") + nameOf(format) + " " + nameOf(fields[columns.field[0]].type);
+  raw.reserve(vertex.count);
+  if (vertex.hasLists()) {
+    readRowByRow(file, vertex, format, columns, raw);
+  } else if (format == PlyFormat::Ascii) {
+    readAsciiRecords(file, fields, columns, raw);
+  } else {
+    readBinaryRecords(file, fields, columns, format == PlyFormat::BinaryBigEndian, raw);
+  }
+  return raw;
+}
+
+}  // namespace
+
+RawCloud readPlyCloud(InputFile& file, std::uint64_t max_memory) {
+  const PlyHeader header = readPlyHeader(file);
+  RawCloud raw;
+  bool found = false;
+  for (const PlyElement& element : header.elements) {
+    if (element.name == "vertex") {
+      raw = readVertices(file, element, header.format, max_memory);
+      found = true;
+    } else {
+      skipElement(file, element, header.format);
+    }
+  }
+  if (!found) file.fail("has no element 'vertex'", "write the points as the element 'vertex'");
+  expectPlyEnd(file, header.format);
+  return raw;
+}
+
+}  // namespace storey::io

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "io/input_file.h"
+#include "io/point_records.h"
+
+namespace storey::io {
+
+/// Reads the `vertex` element of a PLY file (ascii, binary of both byte orders) from its first
+/// byte. All other elements are passed over, yet checked to be complete.
+RawCloud readPlyCloud(InputFile& file, std::uint64_t max_memory);
+
+}  // namespace storey::io

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <tuple>
+
+#include "io/label_names.h"
+#include "io/model_io.h"
+#include "io/output_file.h"
+
+namespace storey::io {
+namespace {
+
+std::size_t maxCorners(const PolygonSoup& soup) {
+  std::size_t most = 0;
+  for (const auto& polygon : soup.polygons) most = std::max(most, polygon.corners.size());
+  return most;
+}
+
+void writeTriple(OutputFile& file, const Eigen::Vector3d& v) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis > 0) file.write(" ");
+    file.writeNumber(v[axis]);
+  }
+  file.write("\n");
+}
+
+std::string plyHeader(const PolygonSoup& soup, const char* format, const char* count_type) {
+  return std::string("ply\nformat ") + format +
+         " 1.0\n"
+         "comment made by storey, in the coordinates of the input cloud\n"
+         "comment label: 0 wall, 1 roof, 2 ground, 3 ceiling\n"
+         "element vertex " +
+         std::to_string(soup.vertices.size()) +
+         "\nproperty double x\nproperty double y\nproperty double z\n"
+         "element face " +
+         std::to_string(soup.polygons.size()) + "\nproperty list " + count_type +
+         " int vertex_indices\n"
+         "property uchar label\nproperty int wall\nproperty int shell\n"
+         "property uchar hypothetical\nend_header\n";
+}
+
+void writeAsciiFace(OutputFile& file, const PolygonSoup::Polygon& polygon) {
+  const auto put = [&file](long long value) {
+    file.writeNumber(value);
+    file.write(" ");
+  };
+  put(static_cast<long long>(polygon.corners.size()));
+  for (const int corner : polygon.corners) put(corner);
+  put(polygon.label);
+  put(polygon.wall);
+  put(polygon.shell);
+  file.write(polygon.hypothetical ? "1\n" : "0\n");
+}
+
+template <typename T>
+void writeRaw(OutputFile& file, T value) {  // the host is little-endian
+  file.write(&value, sizeof value);
+}
+
+void writeBinaryFace(OutputFile& file, const PolygonSoup::Polygon& polygon, bool wide) {
+  if (wide) {
+    writeRaw(file, static_cast<std::uint32_t>(polygon.corners.size()));
+  } else {
+    writeRaw(file, static_cast<std::uint8_t>(polygon.corners.size()));
+  }
+  file.write(polygon.corners.data(), polygon.corners.size() * sizeof(int));
+  writeRaw(file, polygon.label);
+  writeRaw(file, static_cast<std::int32_t>(polygon.wall));
+  writeRaw(file, static_cast<std::int32_t>(polygon.shell));
+  writeRaw(file, static_cast<std::uint8_t>(polygon.hypothetical));
+}
+
+void writeObjFaces(OutputFile& file, const PolygonSoup& soup) {
+  const auto key = [&soup](std::size_t i) {
+    const auto& polygon = soup.polygons[i];
+    return std::make_tuple(polygon.shell, polygon.label, polygon.hypothetical);
+  };
+  std::vector<std::size_t> order(soup.polygons.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&key](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const auto& polygon = soup.polygons[order[k]];
+    const bool first = k == 0;
+    if (first || polygon.shell != soup.polygons[order[k - 1]].shell) {
+      file.write("o shell_" + std::to_string(polygon.shell) + "\n");
+    }
+    if (first || key(order[k]) != key(order[k - 1])) {
+      file.write(std::string("g ") + labelName(polygon.label) +
+                 (polygon.hypothetical ? " hypothetical\n" : "\n"));
+    }
+    file.write("f");
+    for (const int corner : polygon.corners) {
+      file.write(" ");
+      file.writeNumber(static_cast<long long>(corner) + 1);
+    }
+    file.write("\n");
+  }
+}
+
+}  // namespace
+
+void writePolygonsPly(const std::string& path, const PolygonSoup& soup,
+                      const Eigen::Isometry3d& local_to_input, PlyEncoding encoding) {
+  OutputFile file(path);
+  const bool ascii = encoding == PlyEncoding::Ascii;
+  const bool wide = maxCorners(soup) > 255;
+  file.write(plyHeader(soup, ascii ? "ascii" : "binary_little_endian", wide ? "uint" : "uchar"));
+  for (const Eigen::Vector3d& vertex : soup.vertices) {
+    const Eigen::Vector3d v = local_to_input * vertex;
+    if (ascii) {
+      writeTriple(file, v);
+    } else {
+      file.write(v.data(), 3 * sizeof(double));
+    }
+  }
+  for (const auto& polygon : soup.polygons) {
+    if (ascii) {
+      writeAsciiFace(file, polygon);
+    } else {
+      writeBinaryFace(file, polygon, wide);
+    }
+  }
+  file.commit();
+}
+
+void writePolygonsObj(const std::string& path, const PolygonSoup& soup,
+                      const Eigen::Isometry3d& local_to_input) {
+  OutputFile file(path);
+  file.write("# made by storey, in the coordinates of the input cloud\n");
+  for (const Eigen::Vector3d& vertex : soup.vertices) {
+    file.write("v ");
+    writeTriple(file, local_to_input * vertex);
+  }
+  writeObjFaces(file, soup);
+  file.commit();
+}
+
+}  // namespace storey::io
