@@ -28,41 +28,53 @@ std::vector<float> phiOf(const std::vector<float>& distances, double sigma_p) {
   return phi;
 }
 
-// The neighbours of one point: their normals are gathered first, so that the exponentials run
-// over a flat array.
+// The neighbours of one point, gathered coordinate by coordinate, so that all that follows runs
+// over flat arrays, four at a time.
 class Kernel {
  public:
   explicit Kernel(const SmoothingParameters& parameters)
       : inverse_psi_(inverseOfPsi(parameters.sigma_n)),
         alpha_(static_cast<float>(parameters.alpha)) {}
 
-  void clear(std::size_t capacity) {
-    normals_.clear();
-    weights_.clear();
-    normals_.reserve(capacity);
-    weights_.reserve(capacity);
-  }
-
-  void add(const Eigen::Vector4f& normal, float phi) {
-    normals_.push_back(normal);
-    weights_.push_back(phi);
+  // Where a point stands among its own neighbours, in the row of a copy of it, its representative
+  // belongs.
+  void gather(const PaddedNormals& normals, const std::uint32_t* neighbors, const float* phi,
+              std::size_t count, std::uint32_t self, std::uint32_t representative) {
+    reserve(count);
+    size_ = static_cast<Eigen::Index>(count);
+    float* x = x_.data();
+    float* y = y_.data();
+    float* z = z_.data();
+    const Eigen::Vector4f* all = normals.data();
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::uint32_t j = neighbors[k];
+      const float* n = all[j == self ? representative : j].data();
+      x[k] = n[0];
+      y[k] = n[1];
+      z[k] = n[2];
+    }
+    std::copy(phi, phi + count, weight_.data());
   }
 
   // Equation (3) with psi of equation (2), right. Without any weight the normal stays.
   Eigen::Vector4f update(const Eigen::Vector4f& normal, const Eigen::Vector4f& prior) {
-    const std::size_t n = normals_.size();
-    exponents_.resize(n);
-    for (std::size_t k = 0; k < n; ++k) {
-      const float t = (1.0f - normal.dot(normals_[k])) * inverse_psi_;
-      exponents_[k] = t * t;
+    const float nx = normal.x();
+    const float ny = normal.y();
+    const float nz = normal.z();
+    const float* x = x_.data();
+    const float* y = y_.data();
+    const float* z = z_.data();
+    float* weight = weight_.data();
+    const Eigen::Index size = size_;
+    const float inverse_psi = inverse_psi_;
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const float t = (1.0f - (nx * x[k] + ny * y[k] + nz * z[k])) * inverse_psi;
+      weight[k] *= fastExpOfMinus(t * t);
     }
-    for (std::size_t k = 0; k < n; ++k) {
-      weights_[k] *= fastExpOfMinus(exponents_[k]);
-    }
-    Eigen::Vector4f sum = alpha_ * prior;
-    for (std::size_t k = 0; k < n; ++k) {
-      sum += weights_[k] * normals_[k];
-    }
+    const auto w = weight_.head(size_);
+    const Eigen::Vector4f sum =
+        alpha_ * prior + Eigen::Vector4f((w * x_.head(size_)).sum(), (w * y_.head(size_)).sum(),
+                                         (w * z_.head(size_)).sum(), 0.0f);
     const float length = sum.norm();
     if (!(length > 0.0f)) {
       return normal;
@@ -71,11 +83,19 @@ class Kernel {
   }
 
  private:
+  void reserve(std::size_t count) {
+    if (static_cast<std::size_t>(weight_.size()) < count) {
+      for (Eigen::ArrayXf* array : {&x_, &y_, &z_, &weight_}) {
+        array->resize(static_cast<Eigen::Index>(count));
+      }
+    }
+  }
+
   float inverse_psi_;
   float alpha_;
-  std::vector<Eigen::Vector4f> normals_;
-  std::vector<float> weights_;
-  std::vector<float> exponents_;
+  Eigen::Index size_ = 0;
+  Eigen::ArrayXf x_, y_, z_;
+  Eigen::ArrayXf weight_;
 };
 
 // Updates the points [begin, end) and returns the sum of their squared changes.
@@ -88,13 +108,10 @@ double updateBlock(const PaddedNormals& priors, const PaddedNormals& normals,
     if (row == Neighborhoods::kNoRow || priors[i].isZero()) {
       continue;
     }
-    kernel.clear(hoods.first[row + 1] - hoods.first[row]);
-    for (std::size_t k = hoods.first[row]; k < hoods.first[row + 1]; ++k) {
-      // In the row of a copy the point itself stands where its representative belongs.
-      const std::uint32_t j = hoods.neighbor[k];
-      const std::uint32_t other = j == i ? hoods.representative[row] : j;
-      kernel.add(normals[other], phi[k]);
-    }
+    const std::size_t first = hoods.first[row];
+    kernel.gather(normals, hoods.neighbor.data() + first, phi.data() + first,
+                  hoods.first[row + 1] - first, static_cast<std::uint32_t>(i),
+                  hoods.representative[row]);
     updated[i] = kernel.update(normals[i], priors[i]);
     change += static_cast<double>((updated[i] - normals[i]).squaredNorm());
   }
@@ -159,10 +176,8 @@ Eigen::Vector4f updatedNormal(const Eigen::Vector4f& normal, const Eigen::Vector
                               const SmoothingParameters& parameters) {
   const std::vector<float> phi = phiOf(distances, parameters.sigma_p);
   Kernel kernel(parameters);
-  kernel.clear(neighbors.size());
-  for (std::size_t k = 0; k < neighbors.size(); ++k) {
-    kernel.add(normals[neighbors[k]], phi[k]);
-  }
+  kernel.gather(normals, neighbors.data(), phi.data(), neighbors.size(), Neighborhoods::kNoRow,
+                Neighborhoods::kNoRow);
   return kernel.update(normal, prior);
 }
 

@@ -9,13 +9,13 @@
 
 namespace storey::detail {
 
-/// exp(-x) for x >= 0, 0 from x = 87 on. Relative error below 1e-6. Plain float arithmetic without
-/// a branch: the compiler makes it four at a time, and the bytes are the same everywhere.
+/// exp(-x) for x >= 0, 0 from x = 87.7 on. Relative error below 1e-6. Plain float arithmetic
+/// without a branch: the compiler makes it four at a time, and the bytes are the same everywhere.
 inline float fastExpOfMinus(float x) {
   // 2^y = 2^i 2^f with |f| <= 1/2; adding and taking away kRound leaves the nearest integer.
   constexpr float kLog2E = 1.44269504f;
   constexpr float kRound = 12582912.0f;  // 1.5 * 2^23
-  constexpr float kLargest = 87.0f;      // 2^-126 is the smallest normal number
+  constexpr float kLargest = 88.0f;      // i = -127: the bits of 0
   const float y = -(x < kLargest ? x : kLargest) * kLog2E;
   const float i = (y + kRound) - kRound;
   const float f = y - i;
@@ -30,7 +30,7 @@ inline float fastExpOfMinus(float x) {
   const std::int32_t bits = (static_cast<std::int32_t>(i) + 127) << 23;
   float power = 0.0f;
   std::memcpy(&power, &bits, sizeof power);
-  return x < kLargest ? p * power : 0.0f;
+  return p * power;
 }
 
 /// The neighbours N_i of many points in one flat list; copies of a position share a row.
