@@ -2,8 +2,8 @@
 #pragma once
 
 #include <pcl/console/print.h>
-#include <pcl/point_types.h>
 #include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
 #include <storey/filters/detail/distinct_positions.h>
 #include <storey/filters/eigen_alignment.h>
 

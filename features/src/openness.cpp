@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <storey/features/detail/openness.h>
+#include <storey/features/detail/vertical_kernels.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace storey::detail {
+namespace {
+
+constexpr int kDirections = 96;        // over the upper hemisphere
+constexpr double kSteep = 0.5;         // d.z of a steep ray, 30 degrees
+constexpr double kOffWall = 0.25;      // |d.n| of a ray that leaves its wall soon enough
+constexpr double kGrazing = 0.1;       // |d.n| below which a ray does not tell the side it meets
+constexpr double kStartOffset = 1.75;  // voxel sides between a wall and the start of its rays
+constexpr std::size_t kOrigins = 4;    // of rays on a patch
+constexpr int kRounds = 60;
+constexpr double kDamping = 0.5;
+constexpr double kFlushWeight = 0.3;  // of the neighbours in the same plane
+constexpr double kDecided = 0.5;      // |s| of a wall that the level rays decide
+
+struct Meeting {
+  int patch;
+  double side;  // +1: the ray meets the side that the patch's normal points to
+};
+
+// The outcomes of all rays from one side of a patch.
+struct Outlook {
+  double level_escapes = 0.0;
+  double steep_escapes = 0.0;
+  double steep_rays = 0.0;
+  double roofs = 0.0;
+  std::vector<Meeting> meetings;
+};
+
+struct PatchOutlooks {
+  Outlook front;  // the side its normal points to
+  Outlook back;
+};
+
+// Walks a ray from cell to cell [Amanatides and Woo 1987] to the first occupied voxel that is not
+// of the patch `own`; -1 if it leaves the grid.
+int castRay(const WallVoxels& walls, const Eigen::Vector3d& origin, const Eigen::Vector3d& d,
+            int own) {
+  const VoxelGrid3& grid = walls.grid;
+  Eigen::Array3i cell = grid.cellOf(origin);
+  const Eigen::Array3d position = (origin - grid.low).array() / grid.side;
+  Eigen::Array3d next;   // ray parameter, in voxel sides, of the next wall of the cell
+  Eigen::Array3d delta;  // from wall to wall
+  for (int a = 0; a < 3; ++a) {
+    const double distance = d[a] > 0.0 ? cell[a] + 1.0 - position[a] : position[a] - cell[a];
+    const bool moves = std::abs(d[a]) > 1e-9;
+    delta[a] = moves ? 1.0 / std::abs(d[a]) : std::numeric_limits<double>::max();
+    next[a] = moves ? distance * delta[a] : std::numeric_limits<double>::max();
+  }
+  while (grid.contains(cell)) {
+    const std::int32_t id = walls.id_of_cell[grid.indexOf(cell)];
+    if (id >= 0 && walls.voxels[static_cast<std::size_t>(id)].patch != own) {
+      return id;
+    }
+    int axis = 0;
+    next.minCoeff(&axis);
+    cell[axis] += d[axis] > 0.0 ? 1 : -1;
+    next[axis] += delta[axis];
+  }
+  return -1;
+}
+
+void addRay(const WallVoxels& walls, const Eigen::Vector3d& origin, const Eigen::Vector3d& d,
+            int own, Outlook& outlook) {
+  const bool steep = d.z() > kSteep;
+  outlook.steep_rays += steep ? 1.0 : 0.0;
+  const int id = castRay(walls, origin, d, own);
+  if (id < 0) {
+    (steep ? outlook.steep_escapes : outlook.level_escapes) += 1.0;
+    return;
+  }
+  const OccupiedVoxel& hit = walls.voxels[static_cast<std::size_t>(id)];
+  if (hit.kind == VoxelKind::Level) {
+    outlook.roofs += 1.0;
+  } else if (hit.kind == VoxelKind::Wall && std::abs(hit.axis.dot(d)) > kGrazing) {
+    outlook.meetings.push_back({hit.patch, hit.axis.dot(d) < 0.0 ? 1.0 : -1.0});
+  }
+}
+
+PatchOutlooks lookAround(const WallVoxels& walls, int patch_id, const Vectors3d& directions) {
+  PatchOutlooks result;
+  const WallPatch& patch = walls.patches[static_cast<std::size_t>(patch_id)];
+  const std::size_t step = std::max<std::size_t>(1, patch.voxels.size() / kOrigins);
+  const Eigen::Vector3d offset = kStartOffset * walls.grid.side * patch.normal;
+  for (std::size_t k = 0; k < patch.voxels.size(); k += step) {
+    const auto v = static_cast<std::size_t>(patch.voxels[k]);
+    const Eigen::Vector3d& center = walls.voxels[v].center;
+    for (const Eigen::Vector3d& d : directions) {
+      const double along = d.dot(patch.normal);
+      if (along > kOffWall) {
+        addRay(walls, center + offset, d, patch_id, result.front);
+      } else if (along < -kOffWall) {
+        addRay(walls, center - offset, d, patch_id, result.back);
+      }
+    }
+  }
+  return result;
+}
+
+// Mean outcome of the rays of one side: +1 outside, -1 inside.
+double meanOutcome(const Outlook& outlook, const std::vector<double>& s, double steep_weight) {
+  double sum = outlook.level_escapes + steep_weight * outlook.steep_escapes - outlook.roofs;
+  for (const Meeting& m : outlook.meetings) {
+    sum += m.side * s[static_cast<std::size_t>(m.patch)];
+  }
+  const double rays = outlook.level_escapes + outlook.roofs + steep_weight * outlook.steep_escapes +
+                      static_cast<double>(outlook.meetings.size());
+  return rays > 0.0 ? sum / rays : 0.0;
+}
+
+double flushMean(const WallVoxels& walls, const WallPatch& patch, const std::vector<double>& s) {
+  double sum = 0.0;
+  for (const int other : patch.flush) {
+    const auto o = static_cast<std::size_t>(other);
+    sum += (walls.patches[o].normal.dot(patch.normal) < 0.0 ? -1.0 : 1.0) * s[o];
+  }
+  return patch.flush.empty() ? 0.0 : sum / static_cast<double>(patch.flush.size());
+}
+
+std::vector<double> solve(const WallVoxels& walls, const std::vector<PatchOutlooks>& outlooks,
+                          double steep_weight, int num_threads) {
+  std::vector<double> s(outlooks.size(), 0.0);
+  std::vector<double> updated(s);
+  for (int round = 0; round < kRounds; ++round) {
+#pragma omp parallel for num_threads(num_threads) schedule(static)
+    for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(s.size()); ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const double difference = meanOutcome(outlooks[i].front, s, steep_weight) -
+                                meanOutcome(outlooks[i].back, s, steep_weight);
+      const double target =
+          std::clamp(difference + kFlushWeight * flushMean(walls, walls.patches[i], s), -1.0, 1.0);
+      updated[i] = s[i] + kDamping * (target - s[i]);
+    }
+    s.swap(updated);
+  }
+  return s;
+}
+
+// How much a steep escape says for outside: nothing if as many get out on the inner side of the
+// walls that are decided without them, everything if none does.
+double steepWeight(const std::vector<PatchOutlooks>& outlooks, const std::vector<double>& s) {
+  double inner = 0.0;
+  double outer = 0.0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (std::abs(s[i]) > kDecided) {
+      const Outlook& in = s[i] > 0.0 ? outlooks[i].back : outlooks[i].front;
+      const Outlook& out = s[i] > 0.0 ? outlooks[i].front : outlooks[i].back;
+      inner += in.steep_rays > 0.0 ? in.steep_escapes / in.steep_rays : 0.0;
+      outer += out.steep_rays > 0.0 ? out.steep_escapes / out.steep_rays : 0.0;
+    }
+  }
+  return outer > 0.0 ? std::clamp(1.0 - inner / outer, 0.0, 1.0) : 0.0;
+}
+
+}  // namespace
+
+std::vector<double> findOutsides(const WallVoxels& walls, int num_threads) {
+  const Vectors3d directions = fibonacciHemisphere(kDirections);
+  std::vector<PatchOutlooks> outlooks(walls.patches.size());
+#pragma omp parallel for num_threads(num_threads) schedule(dynamic, 8)
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(outlooks.size()); ++i) {
+    outlooks[static_cast<std::size_t>(i)] = lookAround(walls, static_cast<int>(i), directions);
+  }
+  const std::vector<double> level_only = solve(walls, outlooks, 0.0, num_threads);
+  const double steep_weight = steepWeight(outlooks, level_only);
+  return solve(walls, outlooks, steep_weight, num_threads);
+}
+
+}  // namespace storey::detail
