@@ -69,12 +69,13 @@ void addPoint(const RawCloud& raw, std::size_t i, PointIndex& index, LoadedCloud
 }
 
 void judgeNormals(const RawCloud& raw, LoadedCloud& loaded) {
+  if (!raw.has_normal_fields) return;
   for (const pcl::PointNormal& point : *loaded.cloud) {
     if (point.getNormalVector3fMap().isZero(0.0f)) ++loaded.zero_normals;
   }
   const auto size = static_cast<double>(loaded.cloud->size());
   const double usable = size - static_cast<double>(loaded.zero_normals);
-  loaded.has_normals = raw.has_normal_fields && usable >= kMinShareOfNormals * size;
+  loaded.has_normals = usable >= kMinShareOfNormals * size;
   if (loaded.has_normals) return;
   for (pcl::PointNormal& point : *loaded.cloud) point.getNormalVector3fMap().setZero();
 }

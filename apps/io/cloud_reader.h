@@ -34,7 +34,7 @@ struct LoadedCloud {
   std::size_t declared = 0;              ///< points that the file declares, all of them read
   std::size_t dropped_non_finite = 0;    ///< NaN, infinite, or too far out for float distances
   std::size_t collapsed_duplicates = 0;  ///< further points at the place of an earlier one
-  std::size_t zero_normals = 0;          ///< points kept whose normal could not be used
+  std::size_t zero_normals = 0;          ///< normals of the file that cannot be used
   std::string format;                    ///< e.g. "ply binary_little_endian float64"
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/surface/triangulation.h>
 
+#include "io/failure.h"
 #include "io/model_io.h"
 
 namespace storey::io {
@@ -19,7 +20,12 @@ PolygonSoup toPolygons(const PolyhedralModel& model) {
       soup.polygons.push_back(polygon);
       continue;
     }
-    for (std::vector<int>& piece : splitHoles(model, face)) {
+    std::vector<std::vector<int>> pieces = splitHoles(model, face);
+    if (pieces.empty()) {
+      throw Failure(Internal, "", "a face of the model cannot be cut at its holes",
+                    "please report it with the input");
+    }
+    for (std::vector<int>& piece : pieces) {
       polygon.corners = std::move(piece);
       soup.polygons.push_back(polygon);
     }
