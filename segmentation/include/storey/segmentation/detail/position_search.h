@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl/search/kdtree.h>
+#include <pcl/search/search.h>
+#include <storey/filters/detail/distinct_positions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <pcl/kdtree/impl/kdtree_flann.hpp>
+#include <pcl/search/impl/kdtree.hpp>
+#include <pcl/search/impl/search.hpp>
+#include <utility>
+#include <vector>
+
+namespace storey::detail {
+
+/// The median of the values (the upper of two); 0 if there are none.
+inline double medianOf(std::vector<float>& values) {
+  if (values.empty()) {
+    return 0.0;
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return static_cast<double>(*middle);
+}
+
+/// Nearest neighbours among the different positions ("sites") of some points of a cloud. Copies of
+/// one position share a site, so that no number of them slows a query down. Sites are numbered
+/// along a Morton curve: queries in that order are fast, and the numbers do not depend on the order
+/// of the points.
+template <typename PointT>
+class PositionSearch {
+ public:
+  using Tree = pcl::search::Search<PointT>;
+
+  /// \param points indices into `cloud`, all with searchable positions
+  /// \param tree is given the sites as its input cloud; null: a k-d tree is made
+  PositionSearch(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& points,
+                 const typename Tree::Ptr& tree)
+      : tree_(tree ? tree : typename Tree::Ptr(new pcl::search::KdTree<PointT>)) {
+    std::vector<Eigen::Vector3f> positions;
+    positions.reserve(points.size());
+    for (const pcl::index_t i : points) {
+      const PointT& p = cloud[static_cast<std::size_t>(i)];
+      positions.emplace_back(p.x, p.y, p.z);
+    }
+    const DistinctPositions distinct = findDistinctPositions(positions);
+    auto sites = pcl::make_shared<pcl::PointCloud<PointT>>();
+    sites->resize(distinct.cloud->size());
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      site_of_point_.push_back(static_cast<std::size_t>(distinct.id_of_input[j]));
+      (*sites)[site_of_point_[j]].getVector3fMap() = positions[j];
+    }
+    sites_ = sites;
+    if (!sites_->empty()) {
+      tree_->setInputCloud(sites_);
+    }
+  }
+
+  std::size_t numSites() const { return sites_->size(); }
+
+  /// The site of the j-th of the points.
+  std::size_t siteOf(std::size_t j) const { return site_of_point_[j]; }
+
+  /// The k sites nearest to a site (itself one of them) with their squared distances; fewer if
+  /// there are no more. Safe in several threads at once.
+  void nearest(std::size_t site, int k, pcl::Indices& sites, std::vector<float>& squared) const {
+    tree_->nearestKSearch((*sites_)[site], k, sites, squared);
+  }
+
+  /// Distance to the k-th nearest other site, the median over at most about `max_queries` sites; 0
+  /// if there is one site only.
+  double medianSpacing(int k, std::size_t max_queries) const {
+    const std::size_t stride = std::max<std::size_t>(1, numSites() / max_queries);
+    std::vector<float> farthest;
+    pcl::Indices sites;
+    std::vector<float> squared;
+    for (std::size_t site = 0; site < numSites(); site += stride) {
+      nearest(site, k + 1, sites, squared);
+      if (!squared.empty()) {
+        farthest.push_back(*std::max_element(squared.begin(), squared.end()));
+      }
+    }
+    return std::sqrt(medianOf(farthest));
+  }
+
+ private:
+  typename Tree::Ptr tree_;
+  typename pcl::PointCloud<PointT>::ConstPtr sites_;
+  std::vector<std::size_t> site_of_point_;
+};
+
+}  // namespace storey::detail

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl/console/print.h>
+#include <storey/filters/detail/indices.h>
+#include <storey/filters/detail/threads.h>
+#include <storey/segmentation/detail/position_hash.h>
+#include <storey/segmentation/detail/position_search.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <pcl/impl/pcl_base.hpp>  // lets point types unknown to PCL link
+#include <utility>
+
+namespace storey {
+
+template <typename PointT, typename NormalT>
+void DominantDirectionClustering<PointT, NormalT>::extract(
+    std::vector<pcl::PointIndices>& clusters) {
+  clusters.clear();
+  directions_.clear();
+  used_merge_angle_ = 0.0;
+  if (!this->initCompute()) {
+    return;
+  }
+  if (parametersValid() &&
+      detail::indicesInside(*this->indices_, this->input_->size(), getClassName())) {
+    const pcl::PointCloud<NormalT>* normals =
+        detail::chooseNormals<PointT, NormalT>(*this->input_, normals_, getClassName());
+    if (normals != nullptr) {
+      clusterPoints(*normals, clusters);
+    }
+  }
+  this->deinitCompute();
+}
+
+template <typename PointT, typename NormalT>
+bool DominantDirectionClustering<PointT, NormalT>::parametersValid() const {
+  if (smoothing_neighbors_ < 1) {
+    PCL_ERROR("[storey::%s] %d smoothing neighbours, expected >= 1.\n", getClassName(),
+              smoothing_neighbors_);
+    return false;
+  }
+  if (!(merge_angle_ >= 0.0 && merge_angle_ < M_PI)) {
+    PCL_ERROR("[storey::%s] merge angle is %g rad, expected [0, pi).\n", getClassName(),
+              merge_angle_);
+    return false;
+  }
+  if (!(max_tilt_ > 0.0 && max_tilt_ <= M_PI_2)) {
+    PCL_ERROR("[storey::%s] max_tilt is %g rad, expected (0, pi/2].\n", getClassName(), max_tilt_);
+    return false;
+  }
+  if (!(min_cluster_share_ >= 0.0 && min_cluster_share_ <= 1.0)) {
+    PCL_ERROR("[storey::%s] least share of a cluster is %g, expected [0, 1].\n", getClassName(),
+              min_cluster_share_);
+    return false;
+  }
+  if (min_cluster_size_ > max_cluster_size_) {
+    PCL_ERROR("[storey::%s] cluster size at least %zu and at most %zu.\n", getClassName(),
+              min_cluster_size_, max_cluster_size_);
+    return false;
+  }
+  return true;
+}
+
+template <typename PointT, typename NormalT>
+void DominantDirectionClustering<PointT, NormalT>::clusterPoints(
+    const pcl::PointCloud<NormalT>& normals, std::vector<pcl::PointIndices>& clusters) {
+  pcl::Indices indices = *this->indices_;
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  detail::LabelPoints points = detail::collectOrientedPoints(*this->input_, normals, indices);
+
+  const std::vector<std::size_t> sample = chooseSample(points);
+  if (smoothing_neighbors_ > 1) {
+    averageNormals(sample, points);
+  }
+  detail::AngleHistogram histogram;
+  for (const std::size_t j : sample) {
+    if (isWall(points.normals[j])) {
+      histogram.add(std::atan2(points.normals[j].y(), points.normals[j].x()));
+    }
+  }
+  const std::vector<Eigen::Vector3d> directions = findDirections(histogram);
+  std::vector<pcl::PointIndices> found = assignPoints(points, directions);
+  keepClusters(directions, found, clusters);
+}
+
+template <typename PointT, typename NormalT>
+std::vector<std::size_t> DominantDirectionClustering<PointT, NormalT>::chooseSample(
+    const detail::LabelPoints& points) const {
+  std::vector<std::size_t> sample(points.size());
+  std::iota(sample.begin(), sample.end(), std::size_t{0});
+  if (max_samples_ == 0 || points.size() <= max_samples_) {
+    return sample;
+  }
+  std::vector<std::uint64_t> hash(points.size());
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    const PointT& p = (*this->input_)[static_cast<std::size_t>(points.indices[j])];
+    hash[j] = detail::hashOfPoint(Eigen::Vector3d(p.x, p.y, p.z), points.normals[j]);
+  }
+  const auto end = sample.begin() + static_cast<std::ptrdiff_t>(max_samples_);
+  std::nth_element(sample.begin(), end, sample.end(), [&hash](std::size_t i, std::size_t j) {
+    return std::make_pair(hash[i], i) < std::make_pair(hash[j], j);
+  });
+  sample.erase(end, sample.end());
+  return sample;
+}
+
+template <typename PointT, typename NormalT>
+void DominantDirectionClustering<PointT, NormalT>::averageNormals(
+    const std::vector<std::size_t>& sample, detail::LabelPoints& points) const {
+  constexpr double kSameFace = 0.5;  // cos 60 degrees: 4 deviations of 15 degrees
+  const detail::PositionSearch<PointT> search(*this->input_, points.indices, tree_);
+  std::vector<Eigen::Vector3d> site_normals(search.numSites(), Eigen::Vector3d::Zero());
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    site_normals[search.siteOf(j)] += points.normals[j];
+  }
+  for (Eigen::Vector3d& normal : site_normals) {
+    normal.normalize();  // leaves zero alone
+  }
+  std::vector<std::size_t> queries = sample;  // in the order of sites: fast in the tree
+  std::sort(queries.begin(), queries.end(), [&search](std::size_t i, std::size_t j) {
+    return std::make_pair(search.siteOf(i), i) < std::make_pair(search.siteOf(j), j);
+  });
+  std::vector<Eigen::Vector3d> averages(queries.size());
+#pragma omp parallel num_threads(detail::threadsFor(threads_))
+  {
+    pcl::Indices sites;
+    std::vector<float> squared;
+#pragma omp for schedule(dynamic, 256)
+    for (std::ptrdiff_t q = 0; q < static_cast<std::ptrdiff_t>(queries.size()); ++q) {
+      const std::size_t j = queries[static_cast<std::size_t>(q)];
+      search.nearest(search.siteOf(j), smoothing_neighbors_, sites, squared);
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (const pcl::index_t site : sites) {
+        const Eigen::Vector3d& normal = site_normals[static_cast<std::size_t>(site)];
+        sum += normal.dot(points.normals[j]) >= kSameFace ? normal : Eigen::Vector3d::Zero();
+      }
+      averages[static_cast<std::size_t>(q)] =
+          sum.squaredNorm() > 0.0 ? sum.normalized() : points.normals[j];
+    }
+  }
+  for (std::size_t q = 0; q < queries.size(); ++q) {
+    points.normals[queries[q]] = averages[q];
+  }
+}
+
+template <typename PointT, typename NormalT>
+bool DominantDirectionClustering<PointT, NormalT>::isWall(const Eigen::Vector3d& normal) const {
+  return normal.head<2>().squaredNorm() > 0.0 && std::abs(normal.z()) <= std::sin(max_tilt_);
+}
+
+template <typename PointT, typename NormalT>
+std::vector<Eigen::Vector3d> DominantDirectionClustering<PointT, NormalT>::findDirections(
+    const detail::AngleHistogram& histogram) {
+  if (histogram.total() == 0) {
+    return {};
+  }
+  const std::vector<detail::AngleCluster> bins = histogram.clusters();
+  used_merge_angle_ =
+      merge_angle_ > 0.0 ? merge_angle_ : detail::mergeAngleFor(detail::modeSpread(histogram));
+  const double least = min_cluster_share_ * static_cast<double>(histogram.total());
+  std::vector<detail::AngleCluster> kept;
+  for (const detail::AngleCluster& cluster : detail::mergeOnCircle(bins, used_merge_angle_)) {
+    if (cluster.weight >= least) {
+      kept.push_back(cluster);
+    }
+  }
+  std::vector<Eigen::Vector3d> directions;
+  for (const double angle : detail::refineCenters(bins, kept)) {
+    directions.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+  }
+  return directions;
+}
+
+template <typename PointT, typename NormalT>
+std::vector<pcl::PointIndices> DominantDirectionClustering<PointT, NormalT>::assignPoints(
+    const detail::LabelPoints& points, const std::vector<Eigen::Vector3d>& directions) const {
+  const double least_cosine = std::cos(30.0 * M_PI / 180.0);  // 2.8 deviations of raw normals
+  std::vector<pcl::PointIndices> found(directions.size());
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    if (!isWall(points.normals[j])) {
+      continue;
+    }
+    std::size_t nearest = directions.size();
+    double best = least_cosine * points.normals[j].head<2>().norm();
+    for (std::size_t d = 0; d < directions.size(); ++d) {
+      const double along = directions[d].dot(points.normals[j]);
+      if (along > best || (along == best && nearest == directions.size())) {
+        best = along;
+        nearest = d;
+      }
+    }
+    if (nearest < directions.size()) {
+      found[nearest].indices.push_back(points.indices[j]);
+    }
+  }
+  return found;
+}
+
+template <typename PointT, typename NormalT>
+void DominantDirectionClustering<PointT, NormalT>::keepClusters(
+    const std::vector<Eigen::Vector3d>& directions, std::vector<pcl::PointIndices>& found,
+    std::vector<pcl::PointIndices>& clusters) {
+  std::vector<std::size_t> order;
+  for (std::size_t d = 0; d < found.size(); ++d) {
+    const std::size_t size = found[d].indices.size();
+    if (size > 0 && size >= min_cluster_size_ && size <= max_cluster_size_) {
+      order.push_back(d);
+    }
+  }
+  std::sort(order.begin(), order.end(), [&found](std::size_t a, std::size_t b) {
+    const pcl::Indices& p = found[a].indices;
+    const pcl::Indices& q = found[b].indices;
+    return p.size() != q.size() ? p.size() > q.size() : p.front() < q.front();
+  });
+  for (const std::size_t d : order) {
+    directions_.push_back(directions[d]);
+    clusters.push_back(std::move(found[d]));
+    clusters.back().header = this->input_->header;
+  }
+}
+
+}  // namespace storey
