@@ -6,17 +6,20 @@
 namespace storey {
 namespace detail {
 
-bool withinStrip(const std::vector<GridPoint>& points, std::int64_t width) {
-  if (points.size() < 3) return true;
-  const auto by_x = [](const GridPoint& a, const GridPoint& b) { return a < b; };
+std::pair<GridPoint, GridPoint> findChord(const std::vector<GridPoint>& points) {
   const auto by_y = [](const GridPoint& a, const GridPoint& b) {
     return std::tie(a.y, a.x) < std::tie(b.y, b.x);
   };
-  const auto x_ends = std::minmax_element(points.begin(), points.end(), by_x);
+  const auto x_ends = std::minmax_element(points.begin(), points.end());
   const auto y_ends = std::minmax_element(points.begin(), points.end(), by_y);
   const bool along_x = x_ends.second->x - x_ends.first->x >= y_ends.second->y - y_ends.first->y;
-  const GridPoint a = along_x ? *x_ends.first : *y_ends.first;
-  const GridPoint b = along_x ? *x_ends.second : *y_ends.second;
+  const auto& ends = along_x ? x_ends : y_ends;
+  return {*ends.first, *ends.second};
+}
+
+bool withinStrip(const std::vector<GridPoint>& points, std::int64_t width) {
+  if (points.size() < 3) return true;
+  const auto [a, b] = findChord(points);
   std::int64_t low = 0;
   std::int64_t high = 0;
   for (const GridPoint& p : points) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace storey {
@@ -41,8 +42,11 @@ inline std::int64_t orient(const GridPoint& a, const GridPoint& b, const GridPoi
   return cross(b - a, c - a);
 }
 
-/// Whether all points lie in a strip of the given width (grid units) along the chord between the
-/// two points that are furthest apart in x (or y, if the points spread more in y).
+/// From one to the other of the two points that are furthest apart in x, or in y if the points
+/// spread more in y.
+std::pair<GridPoint, GridPoint> findChord(const std::vector<GridPoint>& points);
+
+/// Whether all points lie in a strip of the given width (grid units) along their chord.
 bool withinStrip(const std::vector<GridPoint>& points, std::int64_t width);
 
 /// Which points of the cloud's frame the integers stand for: (origin + integer) * grid.
