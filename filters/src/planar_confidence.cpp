@@ -70,6 +70,8 @@ std::vector<double> planarConfidences(const pcl::PointCloud<pcl::PointXYZ>& posi
     for (std::ptrdiff_t i = 0; i < n; ++i) {
       if (wanted[static_cast<std::size_t>(i)]) {
         query(static_cast<pcl::index_t>(i), k_found, neighbors);
+        // Points with the same neighbours get the same bytes, whatever the search's order.
+        std::sort(neighbors.begin(), neighbors.end());
         if (neighbors.size() >= kMinPositions) {
           confidences[static_cast<std::size_t>(i)] =
               planarConfidence(eigenvaluesOf(positions, neighbors));

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <pcl/point_types.h>
+#include <storey/filters/cloud_scale.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "../point_types.h"
+
+namespace {
+
+using Cloud = pcl::PointCloud<pcl::PointXYZ>;
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr double kBoxArea = 2 * 20 * 15 + 2 * 12 * 15 + 20 * 12;
+
+// n points on the walls and lid of a box of 20 x 12 x 15, uniform by area, with isotropic noise.
+// The box is turned by 30 degrees, so that no axis is special.
+Cloud makeBox(std::size_t n, double noise, double scale = 1.0) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::normal_distribution<double> normal(0.0, noise);
+  std::discrete_distribution<int> face({20 * 15, 20 * 15, 12 * 15, 12 * 15, 20 * 12});
+  Cloud cloud;
+  for (std::size_t i = 0; i < n; ++i) {
+    Eigen::Vector3d p(20 * uniform(random), 12 * uniform(random), 15 * uniform(random));
+    const int f = face(random);
+    const int axis = f < 2 ? 1 : f < 4 ? 0 : 2;
+    p(axis) = f == 4 ? 15.0 : f % 2 == 0 ? 0.0 : axis == 1 ? 12.0 : 20.0;
+    p = Eigen::AngleAxisd(M_PI / 6, Eigen::Vector3d::UnitZ()) * p;
+    p += Eigen::Vector3d(normal(random), normal(random), normal(random));
+    cloud.emplace_back();
+    cloud.back().getVector3fMap() = (p * scale).cast<float>();
+  }
+  return cloud;
+}
+
+struct Case {
+  std::size_t points;
+  double noise;
+  double scale;
+};
+
+class ScaleOfABox : public testing::TestWithParam<Case> {};
+
+// A pooled variance of n points has the relative deviation sqrt(2 / n), its root 1 / sqrt(2 n): 3
+// of them and 2 % for neighbourhoods that touch a corner. The density lacks what lies beyond the
+// free lower edges: up to 5 %.
+TEST_P(ScaleOfABox, FindsNoiseAndDensity) {
+  const auto [n, noise, scale] = GetParam();
+  const storey::CloudScale found = storey::estimateCloudScale(makeBox(n, noise, scale));
+  const double count = static_cast<double>(n);
+  EXPECT_NEAR(found.noise / (noise * scale), 1.0, 0.02 + 3.0 / std::sqrt(2.0 * count));
+  EXPECT_NEAR(found.density * kBoxArea * scale * scale / count, 1.0, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(NoiseSizeAndUnit, ScaleOfABox,
+                         testing::Values(Case{200000, 0.1, 1}, Case{200000, 0.03, 1},
+                                         Case{200000, 0.2, 1}, Case{50000, 0.1, 1},
+                                         Case{20000, 0.1, 1}, Case{5000, 0.1, 1},
+                                         Case{1000000, 0.2, 1},  // 200 points span 1.3 deviations
+                                         Case{200000, 0.1, 1000}, Case{200000, 0.1, 0.001}));
+
+// A square lattice of step 1: the nearest other point is at 1, the density is 1, and the 1 % and
+// 99 % quantiles of 0..199 are 2 and 197 along both axes.
+TEST(CloudScale, MeasuresALattice) {
+  Cloud cloud;
+  for (int x = 0; x < 200; ++x) {
+    for (int y = 0; y < 200; ++y) {
+      cloud.push_back(pcl::PointXYZ(static_cast<float>(x), static_cast<float>(y), 3.0f));
+    }
+  }
+  const storey::CloudScale scale = storey::estimateCloudScale(cloud);
+  EXPECT_EQ(scale.noise, 0.0);
+  EXPECT_EQ(scale.spacing, 1.0);
+  EXPECT_NEAR(scale.density, 1.0, 0.05);  // rings of 8 equally far points among 200
+  EXPECT_NEAR(scale.extent, std::hypot(195.0, 195.0), 2.0);
+}
+
+TEST(CloudScale, IsZeroWhereNothingCanBeTold) {
+  const auto expectZero = [](const Cloud& cloud) {
+    const storey::CloudScale scale = storey::estimateCloudScale(cloud);
+    EXPECT_EQ(scale.noise, 0.0);
+    EXPECT_EQ(scale.density, 0.0);
+    EXPECT_EQ(scale.spacing, 0.0);
+    EXPECT_EQ(scale.extent, 0.0);
+  };
+  expectZero(Cloud());
+  expectZero(Cloud(1, 1, pcl::PointXYZ(1, 2, 3)));
+  expectZero(Cloud(1000000, 1, pcl::PointXYZ(1, 2, 3)));
+  expectZero(Cloud(100, 1, pcl::PointXYZ(kNaN, 0, 0)));
+  expectZero(Cloud(100, 1, pcl::PointXYZ(0, std::numeric_limits<float>::infinity(), 0)));
+}
+
+TEST(CloudScale, OfTwoToSixPointsIsFinite) {
+  Cloud cloud;
+  for (int i = 0; i < 6; ++i) {
+    const auto x = static_cast<float>(i);
+    cloud.push_back(pcl::PointXYZ(x, x * x, -x));
+    const storey::CloudScale scale = storey::estimateCloudScale(cloud);
+    EXPECT_TRUE(std::isfinite(scale.noise + scale.density + scale.spacing + scale.extent));
+    EXPECT_EQ(scale.spacing > 0.0, i >= 1);
+  }
+}
+
+TEST(CloudScale, StandsNaNDuplicatesOutliersAndOrder) {
+  const Cloud clean = makeBox(30000, 0.1);
+  const storey::CloudScale expected = storey::estimateCloudScale(clean);
+
+  Cloud shuffled = clean;
+  std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(3));
+  shuffled.push_back(pcl::PointXYZ(kNaN, kNaN, kNaN));
+  const storey::CloudScale of_shuffled = storey::estimateCloudScale(shuffled);
+  EXPECT_EQ(of_shuffled.noise, expected.noise);
+  EXPECT_EQ(of_shuffled.density, expected.density);
+  EXPECT_EQ(of_shuffled.spacing, expected.spacing);
+  EXPECT_EQ(of_shuffled.extent, expected.extent);
+
+  Cloud doubled = clean;
+  doubled += clean;
+  const storey::CloudScale of_doubled = storey::estimateCloudScale(doubled);
+  EXPECT_EQ(of_doubled.noise, expected.noise);
+  EXPECT_EQ(of_doubled.spacing, expected.spacing);
+  // (2 k - 4/3) / (k - 4/3) for k = 200 positions, each twice, is 2.007.
+  EXPECT_NEAR(of_doubled.density / expected.density, 2.0, 0.02);
+
+  Cloud with_outliers = clean;
+  for (int i = 0; i < 30; ++i) {
+    with_outliers.push_back(pcl::PointXYZ(1e7f + static_cast<float>(i * i), 1e7f, 1e7f));
+  }
+  const storey::CloudScale of_outliers = storey::estimateCloudScale(with_outliers);
+  EXPECT_NEAR(of_outliers.noise / expected.noise, 1.0, 0.02);
+  EXPECT_NEAR(of_outliers.extent / expected.extent, 1.0, 0.02);
+}
+
+template <typename PointT>
+class CloudScaleOf : public testing::Test {};
+TYPED_TEST_SUITE(CloudScaleOf, OrientedPointTypes);
+
+TYPED_TEST(CloudScaleOf, AnyPointTypeIsTheSame) {
+  const Cloud box = makeBox(5000, 0.1);
+  pcl::PointCloud<TypeParam> cloud;
+  for (const pcl::PointXYZ& p : box) {
+    cloud.emplace_back();
+    cloud.back().getVector3fMap() = p.getVector3fMap();
+  }
+  EXPECT_EQ(storey::estimateCloudScale(cloud).noise, storey::estimateCloudScale(box).noise);
+}
+
+}  // namespace
