@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 
 namespace storey {
@@ -16,7 +17,7 @@ using detail::GridEdge;
 using detail::GridLayer;
 using detail::GridPoint;
 
-constexpr int kMaxRounds = 8;               // of plugging; each halves the plugs
+constexpr int kMaxRounds = 8;  // of plugging: a plug can join parts that touch elsewhere
 constexpr std::int64_t kLargestPlug = 256;  // grid units
 constexpr std::int64_t kExtentPerPlug = 4096;
 
@@ -28,17 +29,15 @@ detail::PlanArrangement arrange(const std::vector<GridLayer>& layers) {
   return detail::arrangeSegments(std::move(segments));
 }
 
-// Half the diagonal of a plug: small against the building and the edges that end in the contact.
-std::int64_t plugRadius(const detail::PlanArrangement& plan, const detail::Pinch& pinch,
-                        int round) {
+// Half the diagonal of a plug around a vertex: small against the building and the edges that end
+// there.
+std::int64_t plugRadius(const detail::PlanArrangement& plan, int vertex) {
   const auto [low, high] = std::minmax_element(plan.vertices.begin(), plan.vertices.end());
-  std::int64_t radius = std::min(kLargestPlug, (high->x - low->x) / kExtentPerPlug) >> round;
-  for (const int v : {pinch.a, pinch.b}) {
-    for (const int h : plan.outgoing[static_cast<std::size_t>(v)]) {
-      const GridPoint d = plan.to(h) - plan.from(h);
-      const double length = std::sqrt(static_cast<double>(detail::dot(d, d)));
-      radius = std::min(radius, static_cast<std::int64_t>(length / 3.0));
-    }
+  std::int64_t radius = std::min(kLargestPlug, (high->x - low->x) / kExtentPerPlug);
+  for (const int h : plan.outgoing[static_cast<std::size_t>(vertex)]) {
+    const GridPoint d = plan.to(h) - plan.from(h);
+    const double length = std::sqrt(static_cast<double>(detail::dot(d, d)));
+    radius = std::min(radius, static_cast<std::int64_t>(length / 3.0));
   }
   return std::max<std::int64_t>(radius, 1);
 }
@@ -61,25 +60,38 @@ std::vector<GridPoint> convexHull(std::vector<GridPoint> points) {
   return hull;
 }
 
-// A layer of its own that fills the surroundings of a contact.
-GridLayer makePlug(const detail::PlanArrangement& plan, const detail::SlabLabels& labels,
-                   const detail::Pinch& pinch, int round) {
-  const std::int64_t r = plugRadius(plan, pinch, round);
-  std::vector<GridPoint> diamonds;
-  for (const int v : {pinch.a, pinch.b}) {
-    const GridPoint& p = plan.vertices[static_cast<std::size_t>(v)];
-    diamonds.insert(diamonds.end(),
-                    {{p.x + r, p.y}, {p.x, p.y + r}, {p.x - r, p.y}, {p.x, p.y - r}});
+// Layers of their own that fill the surroundings of contacts.
+class Plugger {
+ public:
+  void plug(const detail::PlanArrangement& plan, const detail::SlabLabels& labels,
+            const std::vector<detail::Pinch>& pinches, std::vector<GridLayer>& layers) {
+    for (const detail::Pinch& pinch : pinches) {
+      GridLayer plug;
+      plug.z_min = labels.levels[static_cast<std::size_t>(pinch.slab)];
+      plug.z_max = labels.levels[static_cast<std::size_t>(pinch.slab) + 1];
+      const std::vector<GridPoint> hull = convexHull(diamonds(plan, pinch));
+      for (std::size_t i = 0; i < hull.size(); ++i) {
+        plug.edges.push_back({hull[i], hull[(i + 1) % hull.size()], {-1, true}});
+      }
+      layers.push_back(std::move(plug));
+    }
   }
-  const std::vector<GridPoint> hull = convexHull(std::move(diamonds));
-  GridLayer plug;
-  plug.z_min = labels.levels[static_cast<std::size_t>(pinch.slab)];
-  plug.z_max = labels.levels[static_cast<std::size_t>(pinch.slab) + 1];
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    plug.edges.push_back({hull[i], hull[(i + 1) % hull.size()], {-1, true}});
+
+ private:
+  std::vector<GridPoint> diamonds(const detail::PlanArrangement& plan, const detail::Pinch& pinch) {
+    std::vector<GridPoint> corners;
+    for (const int v : {pinch.a, pinch.b}) {
+      const GridPoint& p = plan.vertices[static_cast<std::size_t>(v)];
+      // The first plug shortens the edges: later ones in the same place must have its size.
+      const std::int64_t r = radii_.emplace(p, plugRadius(plan, v)).first->second;
+      corners.insert(corners.end(),
+                     {{p.x + r, p.y}, {p.x, p.y + r}, {p.x - r, p.y}, {p.x, p.y - r}});
+    }
+    return corners;
   }
-  return plug;
-}
+
+  std::map<GridPoint, std::int64_t> radii_;
+};
 
 }  // namespace
 
@@ -91,6 +103,7 @@ PolyhedralModel extrudeFloorplans(const std::vector<FloorplanLayer>& layers, dou
     PCL_ERROR("[storey::extrudeFloorplans] %s.\n", error.c_str());
     return {};
   }
+  Plugger plugger;
   for (int round = 0;; ++round) {
     const detail::PlanArrangement plan = arrange(rounded);
     if (plan.interior.empty()) break;
@@ -98,7 +111,7 @@ PolyhedralModel extrudeFloorplans(const std::vector<FloorplanLayer>& layers, dou
     const detail::BoundaryComplex boundary = detail::buildBoundary(plan, labels);
     const std::vector<detail::Pinch> pinches = detail::findPinches(labels, boundary);
     if (!pinches.empty() && round < kMaxRounds) {
-      for (const detail::Pinch& p : pinches) rounded.push_back(makePlug(plan, labels, p, round));
+      plugger.plug(plan, labels, pinches, rounded);
       continue;
     }
     const std::vector<FloorplanEdge> sources = detail::findSources(plan, labels, boundary, rounded);

@@ -34,13 +34,16 @@ class FaceMerger {
         sources_(sources),
         lattice_(lattice),
         region_(findCoplanarRegions(plan, boundary, sources, strip)),
-        kept_(boundary.umbrella_corner.size(), 0) {}
+        kept_(boundary.umbrella_corner.size(), 0),
+        corner_kept_(plan.vertices.size() * at(labels.numLevels()), 0) {}
 
   PolyhedralModel merge() {
     keepCorners();
     collectFacts();
     traceRings();
-    for (std::size_t r = 0; r < facts_.size(); ++r) keepDegenerateRings(facts_[r]);
+    for (const RegionFacts& facts : facts_) keepDegenerateRings(facts);
+    while (keepBentRuns()) {
+    }
     for (RegionFacts& facts : facts_) simplifyRings(facts);
     return assemble();
   }
@@ -53,7 +56,6 @@ class FaceMerger {
     return plan_.vertices[at(corner / labels_.numLevels())];
   }
   int cornerOf(int umbrella) const { return boundary_.umbrella_corner[at(umbrella)]; }
-  int targetCorner(int dart) const { return boundary_.corner[at(boundary_.next[at(dart)])]; }
 
   // The next dart along the border of the region.
   int nextOnBorder(int dart) const {
@@ -62,23 +64,20 @@ class FaceMerger {
     return next;
   }
 
-  // Where two polygons meet in a line nothing is lost without the corner. A corner that deviates
-  // from that line must stay if another part of the building touches it there.
+  // Where two polygons meet in a line nothing is lost without the corner.
   void keepCorners() {
-    std::vector<std::vector<int>> borders(kept_.size());  // darts from the umbrella
+    std::vector<int> borders(kept_.size(), 0);
     for (int d = 0; d < static_cast<int>(boundary_.numDarts()); ++d) {
-      if (onBorder(d)) borders[at(boundary_.umbrella[at(d)])].push_back(targetCorner(d));
-    }
-    std::vector<char> corner_kept(plan_.vertices.size() * at(labels_.numLevels()), 0);
-    for (std::size_t u = 0; u < kept_.size(); ++u) {
-      kept_[u] = borders[u].size() > 2;
-      if (kept_[u] != 0) corner_kept[at(boundary_.umbrella_corner[u])] = 1;
+      if (onBorder(d)) ++borders[at(boundary_.umbrella[at(d)])];
     }
     for (std::size_t u = 0; u < kept_.size(); ++u) {
-      const int corner = boundary_.umbrella_corner[u];
-      if (kept_[u] != 0 || borders[u].size() != 2 || corner_kept[at(corner)] == 0) continue;
-      if (orient(plan(borders[u][0]), plan(corner), plan(borders[u][1])) != 0) kept_[u] = 1;
+      if (borders[u] > 2) keep(static_cast<int>(u));
     }
+  }
+
+  void keep(int umbrella) {
+    kept_[at(umbrella)] = 1;
+    corner_kept_[at(cornerOf(umbrella))] = 1;
   }
 
   void collectFacts() {
@@ -155,8 +154,63 @@ class FaceMerger {
         if (kept_[at(u)] != 0) corners.push_back(u);
       }
       if (corners.size() >= 3 && twiceArea(corners, facts) != 0) continue;
-      for (const int u : ring) kept_[at(u)] = 1;
+      for (const int u : ring) keep(u);
     }
+  }
+
+  // Without its corners a run of edges that is straight only within the strip moves sideways. It
+  // keeps them if something else is in the way there. Whether there was such a run.
+  bool keepBentRuns() {
+    bool found = false;
+    for (const RegionFacts& facts : facts_) {
+      for (const Ring& ring : facts.rings) {
+        const auto is_kept = [&](int u) { return kept_[at(u)] != 0; };
+        const auto start = std::find_if(ring.begin(), ring.end(), is_kept) - ring.begin();
+        Ring run;
+        for (std::size_t i = 0; i <= ring.size(); ++i) {
+          const int u = ring[(at(static_cast<int>(start)) + i) % ring.size()];
+          run.push_back(u);
+          if (!is_kept(u) || i == 0) continue;
+          if (mustKeep(run)) {
+            std::for_each(run.begin(), run.end(), [&](int v) { keep(v); });
+            found = true;
+          }
+          run = {u};
+        }
+      }
+    }
+    return found;
+  }
+
+  bool mustKeep(const Ring& run) const {
+    const GridPoint& a = plan(cornerOf(run.front()));
+    const GridPoint& b = plan(cornerOf(run.back()));
+    bool straight = true;
+    bool touched = false;
+    for (std::size_t i = 1; i + 1 < run.size(); ++i) {
+      const int corner = cornerOf(run[i]);
+      straight = straight && orient(a, b, plan(corner)) == 0;
+      touched = touched || corner_kept_[at(corner)] != 0;
+    }
+    return !straight && (touched || !chordIsFree(run, a, b));
+  }
+
+  // Whether no other vertex of the plan is within a unit of the chord of a run.
+  bool chordIsFree(const Ring& run, const GridPoint& a, const GridPoint& b) const {
+    std::vector<GridPoint> own;
+    for (const int u : run) own.push_back(plan(cornerOf(u)));
+    std::sort(own.begin(), own.end());
+    const auto [low, high] = std::minmax({a.x, b.x});
+    const auto [bottom, top] = std::minmax({a.y, b.y});
+    const Wide length = dot(b - a, b - a);
+    auto it = std::lower_bound(plan_.vertices.begin(), plan_.vertices.end(),
+                               GridPoint{low - 1, bottom - 1});
+    for (; it != plan_.vertices.end() && it->x <= high + 1; ++it) {
+      if (it->y < bottom - 1 || it->y > top + 1) continue;
+      const Wide area = orient(a, b, *it);
+      if (area * area <= length && !std::binary_search(own.begin(), own.end(), *it)) return false;
+    }
+    return true;
   }
 
   void simplifyRings(RegionFacts& facts) const {
@@ -259,6 +313,7 @@ class FaceMerger {
   const Lattice& lattice_;
   std::vector<int> region_;         // elementary face -> region
   std::vector<char> kept_;          // umbrella -> becomes a vertex
+  std::vector<char> corner_kept_;   // corner -> one of its umbrellas does
   std::vector<RegionFacts> facts_;  // by region
 };
 

@@ -2,6 +2,7 @@
 #include <storey/surface/detail/model_darts.h>
 #include <storey/surface/triangulation.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace storey {
@@ -42,12 +43,12 @@ bool insideRings(const PolyhedralFace& face, const std::vector<LatticePoint>& po
   bool odd = false;
   forEachRing(face, [&](const std::vector<int>& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      const LatticePoint& a = points[at(ring[i])];
-      const LatticePoint& b = points[at(ring[(i + 1) % ring.size()])];
-      if ((3 * a[1] > threefold[1]) == (3 * b[1] > threefold[1])) continue;
+      const auto [a, b] = std::minmax(points[at(ring[i])], points[at(ring[(i + 1) % ring.size()])],
+                                      [](const auto& p, const auto& q) { return p[1] < q[1]; });
+      if (3 * a[1] > threefold[1] || 3 * b[1] <= threefold[1]) continue;
       const Wide left = static_cast<Wide>(b[0] - a[0]) * (threefold[1] - 3 * a[1]) -
                         static_cast<Wide>(b[1] - a[1]) * (threefold[0] - 3 * a[0]);
-      if ((left > 0) == (b[1] > a[1])) odd = !odd;
+      if (left > 0) odd = !odd;  // on the edge: the same for faces on either side of it
     }
   });
   return odd;
@@ -72,7 +73,8 @@ void checkShell(const PolyhedralModel& model, const ModelDarts& darts, int shell
                 ModelCheck& check) {
   int solids = 0;
   for (std::size_t f = 0; f < model.faces.size(); ++f) {
-    if (darts.shell[f] != shell) continue;
+    // A point of a cap: one of a wall would be above and below the edges of others.
+    if (darts.shell[f] != shell || model.faces[f].label == FaceLabel::Wall) continue;
     const auto triangles = triangulateFace(model, model.faces[f]);
     if (triangles.empty()) continue;
     LatticePoint threefold{};

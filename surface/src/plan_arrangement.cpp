@@ -41,7 +41,7 @@ class Geos {
                                            static_cast<unsigned>(parts.size())));
   }
 
-  std::vector<GridPoint> ring(const GEOSGeometry* line) const {
+  std::vector<GridPoint> points(const GEOSGeometry* line) const {
     const GEOSCoordSequence* sequence = GEOSGeom_getCoordSeq_r(context_, line);
     unsigned size = 0;
     GEOSCoordSeq_getSize_r(context_, sequence, &size);
@@ -93,15 +93,84 @@ void appendSides(const std::vector<GridPoint>& ring, bool hole, int cell,
   }
 }
 
-std::vector<Side> findSides(const Geos& geos, std::vector<GridSegment> segments,
-                            std::vector<Eigen::Vector2d>& interior) {
+void sortUnique(std::vector<GridSegment>& segments) {
   for (GridSegment& s : segments) {
     if (s.second < s.first) std::swap(s.first, s.second);
   }
   std::sort(segments.begin(), segments.end());
   segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
-  const Geos::Geometry lines = geos.lines(segments);
-  const Geos::Geometry noded = geos.own(GEOSUnaryUnionPrec_r(geos.context(), lines.get(), 1.0));
+}
+
+std::vector<GridSegment> readSegments(const Geos& geos, const GEOSGeometry* lines) {
+  std::vector<GridSegment> segments;
+  const int num_lines = GEOSGetNumGeometries_r(geos.context(), lines);
+  for (int i = 0; i < num_lines; ++i) {
+    const std::vector<GridPoint> line = geos.points(GEOSGetGeometryN_r(geos.context(), lines, i));
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) segments.emplace_back(line[k], line[k + 1]);
+  }
+  sortUnique(segments);
+  return segments;
+}
+
+// The vertices within half a unit of the segment, but its ends, in its order.
+std::vector<GridPoint> verticesOn(const GridSegment& s, const std::vector<GridPoint>& vertices) {
+  std::vector<GridPoint> on;
+  const GridPoint d = s.second - s.first;
+  const auto [bottom, top] = std::minmax({s.first.y, s.second.y});
+  auto it = std::upper_bound(vertices.begin(), vertices.end(), s.first);
+  for (; it != vertices.end() && *it < s.second; ++it) {
+    if (it->y < bottom || it->y > top) continue;
+    const Wide area = orient(s.first, s.second, *it);
+    if (4 * area * area < dot(d, d)) on.push_back(*it);
+  }
+  std::sort(on.begin(), on.end(), [&](const GridPoint& a, const GridPoint& b) {
+    return dot(d, a - s.first) < dot(d, b - s.first);
+  });
+  return on;
+}
+
+// Snap rounding can move an edge close to a vertex that it was far from: such an edge is bent to
+// run through it. Whether there was one.
+bool splitAtNearVertices(std::vector<GridSegment>& segments) {
+  std::vector<GridPoint> vertices;
+  for (const GridSegment& s : segments) {
+    vertices.push_back(s.first);
+    vertices.push_back(s.second);
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  std::vector<GridSegment> split;
+  for (const GridSegment& s : segments) {
+    GridPoint from = s.first;
+    for (const GridPoint& p : verticesOn(s, vertices)) {
+      split.emplace_back(from, p);
+      from = p;
+    }
+    split.emplace_back(from, s.second);
+  }
+  const bool changed = split.size() != segments.size();
+  segments = std::move(split);
+  return changed;
+}
+
+// Lines that meet at ends only, and keep half a unit away from each other's ends.
+Geos::Geometry node(const Geos& geos, std::vector<GridSegment> segments) {
+  constexpr int kMaxRounds = 16;  // each splits edges, two are the rule
+  Geos::Geometry noded = geos.own(nullptr);
+  for (int round = 0; round < kMaxRounds; ++round) {
+    sortUnique(segments);
+    const Geos::Geometry lines = geos.lines(segments);
+    noded = geos.own(GEOSUnaryUnionPrec_r(geos.context(), lines.get(), 1.0));
+    if (!noded) break;
+    segments = readSegments(geos, noded.get());
+    if (!splitAtNearVertices(segments)) break;
+  }
+  return noded;
+}
+
+std::vector<Side> findSides(const Geos& geos, std::vector<GridSegment> segments,
+                            std::vector<Eigen::Vector2d>& interior) {
+  const Geos::Geometry noded = node(geos, std::move(segments));
   if (!noded) return {};
   const GEOSGeometry* input[] = {noded.get()};
   const Geos::Geometry cells = geos.own(GEOSPolygonize_r(geos.context(), input, 1));
@@ -110,10 +179,10 @@ std::vector<Side> findSides(const Geos& geos, std::vector<GridSegment> segments,
   const int num_cells = GEOSGetNumGeometries_r(geos.context(), cells.get());
   for (int c = 0; c < num_cells; ++c) {
     const GEOSGeometry* polygon = GEOSGetGeometryN_r(geos.context(), cells.get(), c);
-    appendSides(geos.ring(GEOSGetExteriorRing_r(geos.context(), polygon)), false, c, sides);
+    appendSides(geos.points(GEOSGetExteriorRing_r(geos.context(), polygon)), false, c, sides);
     const int num_holes = GEOSGetNumInteriorRings_r(geos.context(), polygon);
     for (int h = 0; h < num_holes; ++h) {
-      appendSides(geos.ring(GEOSGetInteriorRingN_r(geos.context(), polygon, h)), true, c, sides);
+      appendSides(geos.points(GEOSGetInteriorRingN_r(geos.context(), polygon, h)), true, c, sides);
     }
     interior.push_back(geos.pointInside(polygon));
   }
