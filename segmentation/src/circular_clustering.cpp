@@ -222,7 +222,11 @@ double modeSpread(const AngleHistogram& histogram) {
   constexpr double kReliableMass = 100.0;      // directions under the triangle: 10 % of noise
   constexpr std::size_t kLeastHalfWidth = 10;  // bins = 1 degree
   constexpr std::size_t kMostHalfWidth = 100;  // bins = 10 degrees
-  constexpr double kWidthOfSigma = 2.35482;    // width at half height of a normal distribution
+  constexpr double kHeight = 0.1;              // where the width is taken, against the mode
+  constexpr double kWidthOfSigma = 4.29193;    // 2 sqrt(2 ln 10): of a normal distribution
+  if (histogram.total() == 0) {
+    return 0.0;
+  }
   std::vector<double> smooth;
   std::size_t half_width = kLeastHalfWidth;
   std::size_t mode = 0;
@@ -235,11 +239,12 @@ double modeSpread(const AngleHistogram& histogram) {
     }
   }
   const std::size_t n = smooth.size();
-  std::size_t width = 1;  // bins at least half as high as the mode, around it
-  for (std::size_t d = 1; d < n / 2 && 2.0 * smooth[(mode + d) % n] >= smooth[mode]; ++d) {
+  const double floor = kHeight * smooth[mode];
+  std::size_t width = 1;  // bins around the mode that are higher
+  for (std::size_t d = 1; d < n / 2 && smooth[(mode + d) % n] >= floor; ++d) {
     ++width;
   }
-  for (std::size_t d = 1; d < n / 2 && 2.0 * smooth[(mode + n - d) % n] >= smooth[mode]; ++d) {
+  for (std::size_t d = 1; d < n / 2 && smooth[(mode + n - d) % n] >= floor; ++d) {
     ++width;
   }
   const double sigma = static_cast<double>(width) / kWidthOfSigma;

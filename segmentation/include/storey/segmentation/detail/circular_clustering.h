@@ -48,8 +48,10 @@ class AngleHistogram {
 std::vector<AngleCluster> mergeOnCircle(const std::vector<AngleCluster>& clusters,
                                         double merge_angle);
 
-/// Standard deviation, in radians, of the directions of one wall: from the width at half height of
-/// the highest mode of the histogram, so that other walls do not count. 0 if there is nothing.
+/// Standard deviation, in radians, of the directions of one wall: from the width of the highest
+/// mode of the histogram at a tenth of its height, so that other walls do not count. (Noise in a
+/// random direction on the sphere has a sharp peak and wide tails on the circle: at half height it
+/// would look too narrow.) 0 if there is nothing.
 double modeSpread(const AngleHistogram& histogram);
 
 /// The merge angle, in radians, for walls whose normals have this standard deviation: 4 of them,

@@ -8,9 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <pcl/kdtree/impl/kdtree_flann.hpp>
-#include <pcl/search/impl/kdtree.hpp>
-#include <pcl/search/impl/search.hpp>
 #include <utility>
 #include <vector>
 
@@ -39,7 +36,7 @@ class PositionSearch {
   /// \param tree is given the sites as its input cloud; null: a k-d tree is made
   PositionSearch(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& points,
                  const typename Tree::Ptr& tree)
-      : tree_(tree ? tree : typename Tree::Ptr(new pcl::search::KdTree<PointT>)) {
+      : given_tree_(tree) {
     std::vector<Eigen::Vector3f> positions;
     positions.reserve(points.size());
     for (const pcl::index_t i : points) {
@@ -47,15 +44,21 @@ class PositionSearch {
       positions.emplace_back(p.x, p.y, p.z);
     }
     const DistinctPositions distinct = findDistinctPositions(positions);
-    auto sites = pcl::make_shared<pcl::PointCloud<PointT>>();
-    sites->resize(distinct.cloud->size());
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      site_of_point_.push_back(static_cast<std::size_t>(distinct.id_of_input[j]));
-      (*sites)[site_of_point_[j]].getVector3fMap() = positions[j];
+    sites_ = distinct.cloud;
+    site_of_point_.assign(distinct.id_of_input.begin(), distinct.id_of_input.end());
+    if (sites_->empty()) {
+      return;
     }
-    sites_ = sites;
-    if (!sites_->empty()) {
-      tree_->setInputCloud(sites_);
+    if (given_tree_) {
+      auto given_sites = pcl::make_shared<pcl::PointCloud<PointT>>();
+      for (const pcl::PointXYZ& site : *sites_) {
+        given_sites->emplace_back();
+        given_sites->back().getVector3fMap() = site.getVector3fMap();
+      }
+      given_sites_ = given_sites;
+      given_tree_->setInputCloud(given_sites_);
+    } else {
+      tree_.setInputCloud(sites_);
     }
   }
 
@@ -67,7 +70,11 @@ class PositionSearch {
   /// The k sites nearest to a site (itself one of them) with their squared distances; fewer if
   /// there are no more. Safe in several threads at once.
   void nearest(std::size_t site, int k, pcl::Indices& sites, std::vector<float>& squared) const {
-    tree_->nearestKSearch((*sites_)[site], k, sites, squared);
+    if (given_tree_) {
+      given_tree_->nearestKSearch((*given_sites_)[site], k, sites, squared);
+    } else {
+      tree_.nearestKSearch((*sites_)[site], k, sites, squared);
+    }
   }
 
   /// Distance to the k-th nearest other site, the median over at most about `max_queries` sites; 0
@@ -87,8 +94,11 @@ class PositionSearch {
   }
 
  private:
-  typename Tree::Ptr tree_;
-  typename pcl::PointCloud<PointT>::ConstPtr sites_;
+  typename Tree::Ptr given_tree_;
+  typename pcl::PointCloud<PointT>::ConstPtr given_sites_;
+  // of PointXYZ, which PCL has compiled: for a type of the user's it would need all of FLANN
+  pcl::search::KdTree<pcl::PointXYZ> tree_;
+  pcl::PointCloud<pcl::PointXYZ>::ConstPtr sites_;
   std::vector<std::size_t> site_of_point_;
 };
 
