@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "synth/triangle_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace storey::synth {
+namespace {
+
+constexpr std::size_t kLeafSize = 4;
+
+}  // namespace
+
+TriangleTree::TriangleTree(TriangleMesh mesh) : mesh_(std::move(mesh)) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    Eigen::AlignedBox3d box(mesh_.corner(t, 0));
+    box.extend(mesh_.corner(t, 1)).extend(mesh_.corner(t, 2));
+    boxes.push_back(box);
+  }
+  order_.resize(boxes.size());
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  if (!order_.empty()) {
+    build(0, order_.size(), boxes);
+  }
+}
+
+std::size_t TriangleTree::build(std::size_t first, std::size_t last,
+                                const std::vector<Eigen::AlignedBox3d>& boxes) {
+  const std::size_t id = nodes_.size();
+  nodes_.push_back({Eigen::AlignedBox3d(), first, last, 0});
+  for (std::size_t i = first; i < last; ++i) {
+    nodes_[id].box.extend(boxes[order_[i]]);
+  }
+  if (last - first > kLeafSize) {
+    Eigen::Index axis = 0;
+    nodes_[id].box.sizes().maxCoeff(&axis);
+    const std::size_t middle = first + (last - first) / 2;
+    const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(first), at(middle), at(last), [&](std::size_t a, std::size_t b) {
+      const double center_a = boxes[a].center()[axis];
+      const double center_b = boxes[b].center()[axis];
+      return std::make_pair(center_a, a) < std::make_pair(center_b, b);
+    });
+    build(first, middle, boxes);
+    nodes_[id].right = build(middle, last, boxes);
+  }
+  return id;
+}
+
+void TriangleTree::search(std::size_t node, const Eigen::Vector3d& point, double& best) const {
+  const Node& here = nodes_[node];
+  if (here.box.exteriorDistance(point) >= best) {
+    return;
+  }
+  if (here.right == 0) {
+    for (std::size_t i = here.first; i < here.last; ++i) {
+      const std::size_t t = order_[i];
+      best = std::min(best, distanceToTriangle(point, mesh_.corner(t, 0), mesh_.corner(t, 1),
+                                               mesh_.corner(t, 2)));
+    }
+    return;
+  }
+  std::size_t near = node + 1;
+  std::size_t far = here.right;
+  if (nodes_[far].box.squaredExteriorDistance(point) <
+      nodes_[near].box.squaredExteriorDistance(point)) {
+    std::swap(near, far);
+  }
+  search(near, point, best);
+  search(far, point, best);
+}
+
+double TriangleTree::distance(const Eigen::Vector3d& point) const {
+  double best = std::numeric_limits<double>::infinity();
+  if (!nodes_.empty()) {
+    search(0, point, best);
+  }
+  return best;
+}
+
+std::vector<double> TriangleTree::distances(const std::vector<Eigen::Vector3d>& points) const {
+  std::vector<double> result(points.size());
+  const auto count = static_cast<std::ptrdiff_t>(points.size());
+#pragma omp parallel for schedule(dynamic, 256)
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    result[static_cast<std::size_t>(i)] = distance(points[static_cast<std::size_t>(i)]);
+  }
+  return result;
+}
+
+}  // namespace storey::synth
