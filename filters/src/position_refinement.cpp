@@ -85,7 +85,9 @@ class SystemBuilder {
     pcl::Indices neighbors;
     std::vector<float> squared_distances;
     for (std::size_t row = first; row < last; ++row) {
-      search(rows_.id[row], neighbors, squared_distances);
+      if (row == first || rows_.id[row] != rows_.id[row - 1]) {  // copies share their neighbours
+        search(rows_.id[row], neighbors, squared_distances);
+      }
       addRow(row, neighbors, squared_distances, block);
     }
     return block;
