@@ -17,6 +17,7 @@ constexpr double kGuessLevelGate = 0.9;        // |n.u| of a roof or the ground
 constexpr double kGuessGoodAs = 0.8;           // share of the best score that bears the guess out
 constexpr double kElsewhere = 0.8660254;       // cos 30 degrees
 constexpr double kNormalGate = 0.35;           // |n.u| of a wall with noise of 15 degrees
+constexpr double kSpreadOverNoise = 4.0;       // variances; the gate halves that of the noise
 constexpr int kNormalRounds = 40;
 constexpr double kSettled = 1e-7;         // rad
 constexpr double kLevelCone = 0.9063078;  // cos 25 degrees
@@ -95,14 +96,15 @@ VerticalStart findVerticalStart(const Vectors3d& normals, const Eigen::Vector3d&
 }
 
 Eigen::Vector3d refineByNormals(const Vectors3d& normals, const Eigen::Vector3d& start) {
-  // The smallest eigenvector of the normals would be the total least squares solution. This one
-  // converges to the same where walls face several ways; where all face one way, the eigenvector
-  // is drawn at random from the plane across, and this one leaves `up` as it is along the wall.
+  // Converges to the smallest eigenvector of the wall normals. Where all walls face one way, that
+  // is drawn at random from the plane across; so `up` moves only in directions in which the normals
+  // spread by more than their noise, which is how much they spread along `up`.
   Eigen::Vector3d up = start;
   for (int round = 0; round < kNormalRounds; ++round) {
     const Eigen::Matrix<double, 3, 2> frame = tangentFrame(up);
-    Eigen::Matrix2d a = Eigen::Matrix2d::Identity() * 1e-9;
+    Eigen::Matrix2d a = Eigen::Matrix2d::Zero();
     Eigen::Vector2d b = Eigen::Vector2d::Zero();
+    double noise = 0.0;
     for (const Eigen::Vector3d& n : normals) {
       const double lean = n.dot(up);
       const double t = lean / kNormalGate;
@@ -111,9 +113,17 @@ Eigen::Vector3d refineByNormals(const Vectors3d& normals, const Eigen::Vector3d&
         const Eigen::Vector2d h = frame.transpose() * n;
         a += weight * h * h.transpose();
         b -= weight * lean * h;
+        noise += weight * lean * lean;
       }
     }
-    const Eigen::Vector2d turn = a.ldlt().solve(b);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(a);
+    Eigen::Vector2d turn = Eigen::Vector2d::Zero();
+    for (int k = 0; k < 2; ++k) {
+      if (solver.eigenvalues()[k] > kSpreadOverNoise * noise && solver.eigenvalues()[k] > 0.0) {
+        const Eigen::Vector2d axis = solver.eigenvectors().col(k);
+        turn += axis * (axis.dot(b) / solver.eigenvalues()[k]);
+      }
+    }
     up = (up + frame * turn).normalized();
     if (turn.norm() < kSettled) {
       break;
