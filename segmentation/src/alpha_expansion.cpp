@@ -17,7 +17,9 @@ constexpr int kEnergyBits = 51;  // room for sums of integer costs within an int
 class PottsSolver {
  public:
   PottsSolver(const PottsProblem& problem, std::vector<std::size_t> labels)
-      : num_labels_(problem.num_labels), labels_(std::move(labels)) {
+      : num_labels_(problem.num_labels),
+        labels_(std::move(labels)),
+        movable_(labels_.size(), false) {
     const double scale = integerScale(problem);
     costs_.reserve(problem.data_costs.size());
     for (std::size_t i = 0; i < problem.numNodes(); ++i) {
@@ -42,11 +44,14 @@ class PottsSolver {
     }
   }
 
-  void expandAll() {
+  // Expansions of all labels in turn, each over the nodes within `reach` links of it.
+  void expandAll(std::size_t reach) {
     // done when as many labels as there are, one after the other, have changed nothing
     std::size_t idle = 0;
     for (std::size_t alpha = 0; idle < num_labels_; alpha = (alpha + 1) % num_labels_) {
-      idle = expand(alpha) ? 1 : idle + 1;  // a second expansion of the same label is idle
+      findCandidates(alpha, reach);
+      findMovable(alpha);
+      idle = expand(alpha) ? 0 : idle + 1;
     }
   }
 
@@ -109,27 +114,60 @@ class PottsSolver {
     return std::exchange(labels_[i], best) != best;
   }
 
-  // Marks the nodes that may switch to alpha. gain_i bounds from above what a switch of i can save:
-  // a neighbour that may switch too or has alpha already saves w, one that stays saves nothing, and
-  // -w if it has the present label of i. A node with gain <= 0 stays in some best expansion,
-  // and then its neighbours gain less.
+  void findCandidates(std::size_t alpha, std::size_t reach) {
+    const std::size_t n = labels_.size();
+    if (reach >= n) {
+      for (std::size_t i = 0; i < n; ++i) {
+        movable_[i] = labels_[i] != alpha;
+      }
+      return;
+    }
+    std::fill(movable_.begin(), movable_.end(), false);
+    std::vector<std::size_t> ring;  // nodes at the same number of links from alpha
+    for (std::size_t i = 0; i < n; ++i) {
+      if (labels_[i] == alpha) {
+        ring.push_back(i);
+      }
+    }
+    for (std::size_t step = 0; step < reach; ++step) {
+      std::vector<std::size_t> next;
+      for (const std::size_t i : ring) {
+        for (std::size_t e = first_link_[i]; e < first_link_[i + 1]; ++e) {
+          const std::size_t j = links_[e].node;
+          if (labels_[j] != alpha && !movable_[j]) {
+            movable_[j] = true;
+            next.push_back(j);
+          }
+        }
+      }
+      ring = std::move(next);
+    }
+  }
+
+  // Leaves among the candidates those that may gain by a switch to alpha. gain bounds from above
+  // what a switch of i saves: a neighbour that may switch too or has alpha already saves w, one
+  // that stays saves nothing, and -w if it has the present label of i. A node with gain <= 0 stays
+  // in some best expansion, and then its neighbours gain less.
   void findMovable(std::size_t alpha) {
     const std::size_t n = labels_.size();
-    movable_.assign(n, false);
     std::vector<Capacity> gain(n, 0);
     std::vector<std::size_t> fixed;
     for (std::size_t i = 0; i < n; ++i) {
-      if (labels_[i] == alpha) {
+      if (!movable_[i]) {
         continue;
       }
       gain[i] = cost(i, labels_[i]) - cost(i, alpha);
       for (std::size_t e = first_link_[i]; e < first_link_[i + 1]; ++e) {
-        gain[i] += links_[e].weight;
+        const std::size_t j = links_[e].node;
+        const bool saves = movable_[j] || labels_[j] == alpha;
+        gain[i] += saves ? links_[e].weight : labels_[j] == labels_[i] ? -links_[e].weight : 0;
       }
-      movable_[i] = gain[i] > 0;
-      if (!movable_[i]) {
+      if (gain[i] <= 0) {
         fixed.push_back(i);
       }
+    }
+    for (const std::size_t i : fixed) {
+      movable_[i] = false;
     }
     while (!fixed.empty()) {
       const std::size_t i = fixed.back();
@@ -151,7 +189,6 @@ class PottsSolver {
   // The best of all labellings in which every node keeps its label or takes alpha; false if it is
   // no better than the present one. Source side = keep, sink side = switch.
   bool expand(std::size_t alpha) {
-    findMovable(alpha);
     std::vector<std::size_t> nodes;
     std::vector<std::size_t> number(labels_.size(), 0);
     for (std::size_t i = 0; i < labels_.size(); ++i) {
@@ -241,11 +278,18 @@ void descendByNodes(const PottsProblem& problem, std::vector<std::size_t>& label
   labels = solver.labels();
 }
 
-std::vector<std::size_t> minimizePotts(const PottsProblem& problem) {
-  PottsSolver solver(problem, cheapestLabels(problem));
+void moveBoundaries(const PottsProblem& problem, std::size_t reach,
+                    std::vector<std::size_t>& labels) {
+  PottsSolver solver(problem, labels);
   solver.descend();
-  solver.expandAll();
-  return solver.labels();
+  solver.expandAll(reach);
+  labels = solver.labels();
+}
+
+std::vector<std::size_t> minimizePotts(const PottsProblem& problem) {
+  std::vector<std::size_t> labels = cheapestLabels(problem);
+  moveBoundaries(problem, problem.numNodes(), labels);
+  return labels;
 }
 
 PottsProblem aggregatePotts(const PottsProblem& problem, const std::vector<std::size_t>& group,

@@ -205,6 +205,43 @@ TEST(AlphaExpansion, NeverAboveTheNodesAlone) {
   }
 }
 
+TEST(AlphaExpansion, MovingBoundariesNeverRaisesTheEnergy) {
+  std::mt19937 random(8);
+  for (int round = 0; round < 20; ++round) {
+    const PottsProblem problem = randomProblem(random, 60, 5, 0.1);
+    Labels labels(60);
+    for (std::size_t& label : labels) {
+      label = static_cast<std::size_t>(uniform(random, 0, 4));
+    }
+    double energy = pottsEnergy(problem, labels);
+    for (const std::size_t reach : {0U, 1U, 2U, 60U}) {
+      moveBoundaries(problem, reach, labels);
+      EXPECT_LE(pottsEnergy(problem, labels), energy + kRounding);
+      energy = pottsEnergy(problem, labels);
+    }
+  }
+}
+
+TEST(AlphaExpansion, ABoundaryMovesThroughNodesThatDoNotCare) {
+  // a row of 8: the left end wants label 0, a weak link lies in the middle, and the boundary
+  // starts at the right end, where single nodes gain nothing by a change
+  PottsProblem problem;
+  problem.num_labels = 2;
+  problem.data_costs.assign(16, 0.0);
+  problem.data_costs[1] = 9.0;   // node 0 pays 9 for label 1
+  problem.data_costs[14] = 9.0;  // node 7 pays 9 for label 0
+  for (std::size_t i = 0; i + 1 < 8; ++i) {
+    problem.edges.push_back({i, i + 1, i == 3 ? 0.5 : 1.0});
+  }
+  Labels labels = {0, 0, 0, 0, 0, 0, 0, 1};
+  descendByNodes(problem, labels);
+  EXPECT_EQ(labels, (Labels{0, 0, 0, 0, 0, 0, 0, 1}));
+  moveBoundaries(problem, 2, labels);  // two nodes further there is nothing to gain
+  EXPECT_EQ(labels, (Labels{0, 0, 0, 0, 0, 0, 0, 1}));
+  moveBoundaries(problem, 3, labels);
+  EXPECT_EQ(labels, (Labels{0, 0, 0, 0, 1, 1, 1, 1}));
+}
+
 TEST(AlphaExpansion, PermutedNodesOfAChainHaveTheSameEnergy) {
   // weights so small that the optimum is found whatever the order of visits
   std::mt19937 random(6);

@@ -33,6 +33,12 @@ std::vector<std::size_t> cheapestLabels(const PottsProblem& problem);
 /// until none changes. E never increases.
 void descendByNodes(const PottsProblem& problem, std::vector<std::size_t>& labels);
 
+/// Iterated conditional modes, then expansions in which only the nodes within `reach` links of a
+/// label may take it, until none lowers E. E never increases. Cheap where the labels are right up
+/// to the course of their boundaries.
+void moveBoundaries(const PottsProblem& problem, std::size_t reach,
+                    std::vector<std::size_t>& labels);
+
 /// Minimises E from the cheapest labels by iterated conditional modes and then alpha-expansion
 /// until no expansion of any label lowers E: within a factor of two of the optimum (for
 /// non-negative costs), the optimum itself for two labels. Costs are rounded once to integers (of

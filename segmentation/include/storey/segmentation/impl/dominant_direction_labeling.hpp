@@ -129,6 +129,7 @@ detail::PottsProblem DominantDirectionLabeling<PointT, NormalT>::makeProblem(
 template <typename PointT, typename NormalT>
 std::vector<std::size_t> DominantDirectionLabeling<PointT, NormalT>::minimizeOverCells(
     const detail::LabelPoints& points, const detail::PottsProblem& problem) const {
+  constexpr std::size_t kLinksAcrossCell = 4;  // a cell is 2.8 times as long as the longest link
   std::vector<Eigen::Vector3d> positions;
   for (const pcl::index_t i : points.indices) {
     const PointT& p = (*this->input_)[static_cast<std::size_t>(i)];
@@ -150,7 +151,7 @@ std::vector<std::size_t> DominantDirectionLabeling<PointT, NormalT>::minimizeOve
   for (const std::size_t cell : cell_of_point) {
     labels.push_back(label_of_cell[cell]);
   }
-  detail::descendByNodes(problem, labels);
+  detail::moveBoundaries(problem, kLinksAcrossCell, labels);
   return labels;
 }
 
