@@ -147,7 +147,8 @@ Eigen::Vector3d refineByHorizontals(const Vectors3d& normals, const Eigen::Vecto
     if (static_cast<double>(count) < kFewLevel * static_cast<double>(normals.size())) {
       return start;
     }
-    up = (up + axis * (sum.dot(axis) / sum.dot(up))).normalized();
+    const Eigen::Vector3d across = (axis - up * up.dot(axis)).normalized();
+    up = (up + across * (sum.dot(across) / sum.dot(up))).normalized();
   }
   return up;
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <pcl/features/normal_3d_omp.h>
 #include <storey/features/anisotropic_normal_estimation.h>
 
 #include <limits>
 #include <numeric>
+#include <pcl/features/impl/normal_3d.hpp>  // header-only: pcl_features would bring VTK
+#include <pcl/features/impl/normal_3d_omp.hpp>
 
 #include "../point_types.h"
 #include "synthetic_clouds.h"
@@ -24,10 +25,12 @@ typename pcl::PointCloud<PointT>::Ptr slice(int n, const Noise& noise) {
   return cloud;
 }
 
-// Equation (1) as it is written, in double precision, neighbours by brute force.
+// Equation (1) as it is written, in double precision, neighbours by brute force. psi may be taken
+// at other normals than the ones judged.
 template <typename PointT>
-double energyOf(const pcl::PointCloud<PointT>& solved, const pcl::PointCloud<PointT>& prior, int k,
-                double sigma_p, double sigma_n, double alpha) {
+double energyOf(const pcl::PointCloud<PointT>& solved, const pcl::PointCloud<PointT>& psi_at,
+                const pcl::PointCloud<PointT>& prior, int k, double sigma_p, double sigma_n,
+                double alpha) {
   double energy = 0.0;
   std::vector<std::pair<double, std::size_t>> order(prior.size());
   for (std::size_t i = 0; i < prior.size(); ++i) {
@@ -41,7 +44,9 @@ double energyOf(const pcl::PointCloud<PointT>& solved, const pcl::PointCloud<Poi
     for (int m = 1; m < k; ++m) {
       const auto [squared, j] = order[static_cast<std::size_t>(m)];
       const Eigen::Vector3d nj = solved[j].getNormalVector3fMap().template cast<double>();
-      const double t = (1.0 - n.dot(nj)) / (1.0 - std::cos(sigma_n));
+      const double cosine = static_cast<double>(
+          psi_at[i].getNormalVector3fMap().dot(psi_at[j].getNormalVector3fMap()));
+      const double t = (1.0 - cosine) / (1.0 - std::cos(sigma_n));
       energy +=
           (n - nj).squaredNorm() * std::exp(-squared / (sigma_p * sigma_p)) * std::exp(-t * t);
     }
@@ -303,9 +308,12 @@ TEST(AnisotropicNormalEstimation, OneUpdateIsEquationThree) {
   }
 }
 
-TEST(AnisotropicNormalEstimation, TheEnergyDoesNotIncrease) {
+TEST(AnisotropicNormalEstimation, NoUpdateIncreasesTheEnergyThatItTreatsAsQuadratic) {
   const auto cloud = slice<PointT>(1500, {0.1, 15.0 * kDegree, 7});
-  double previous = energyOf(*cloud, *cloud, 30, 0.4, storey::kDefaultSigmaN, 0.1);
+  const auto energy = [&cloud](const Cloud& solved, const Cloud& psi_at) {
+    return energyOf(solved, psi_at, *cloud, 30, 0.4, storey::kDefaultSigmaN, 0.1);
+  };
+  Cloud previous = *cloud;
   for (int iterations = 1; iterations <= 12; ++iterations) {
     Estimation estimation;
     estimation.setInputCloud(cloud);
@@ -316,10 +324,11 @@ TEST(AnisotropicNormalEstimation, TheEnergyDoesNotIncrease) {
     Cloud out;
     estimation.compute(out);
     EXPECT_EQ(estimation.getUsedIterations(), iterations);
-    const double energy = energyOf(out, *cloud, 30, 0.4, storey::kDefaultSigmaN, 0.1);
-    EXPECT_LE(energy, previous) << "update " << iterations;
-    previous = energy;
+    EXPECT_LE(energy(out, previous), energy(previous, previous)) << "update " << iterations;
+    previous = out;
   }
+  // As a whole (1) falls too, although a pair drawn into the reach of psi may raise it for a while.
+  EXPECT_LT(energy(previous, previous), 0.2 * energy(*cloud, *cloud));
 }
 
 TEST(AnisotropicNormalEstimation, AnExactPlaneStaysAndACreaseIsSharperThanByPca) {
@@ -405,7 +414,7 @@ TEST(AnisotropicNormalEstimation, DuplicatesAndHugeCoordinatesAreHarmless) {
     Cloud out;
     estimation.compute(out);
     ASSERT_EQ(out.size(), cloud->size());
-    EXPECT_EQ(out[777].getNormalVector3fMap(), Eigen::Vector3f::UnitX());
+    EXPECT_LT((out[777].getNormalVector3fMap() - Eigen::Vector3f::UnitX()).norm(), 1e-6f);
   }
   (*cloud)[3].x = kNaN;
   cloud->resize(4);

@@ -21,11 +21,11 @@ constexpr double kDefaultNormalAlpha = 0.1;    // [Sui et al. 2016, 3.2.1]
 ///     sigma_n))^2) n_i <- normalise(sum_j phi psi n_j + alpha n_i0)
 ///
 /// all points at once, from the normals of the round before. The point itself is not in N_i.
-/// \note The update treats psi as a constant. With psi fixed each round lowers (1); with psi as a
-/// function of the normals (1) has a maximum at 1 - a.b = (1 - cos sigma_n) / sqrt 2 for each pair
-/// (17 degrees), and may rise while pairs further apart than that are drawn together.
-/// \note Deviation: sigma_p is by default derived from the cloud instead of 0.1 of its units
-/// [METHOD.md, item 8].
+/// \note An update never raises (1) with psi held at the normals before it; no damping is needed.
+/// With psi as a function of the normals, each pair's term has its maximum at 1 - a.b =
+/// (1 - cos sigma_n) / sqrt 2 (17 degrees), and (1) may rise a little while pairs further apart
+/// than that, at corners, are drawn together. \note Deviation: sigma_p is by default derived from
+/// the cloud instead of 0.1 of its units [METHOD.md, item 8].
 ///
 /// The prior normals come through `setInputNormals`, parallel to the surface (default: the input);
 /// they need not be unit. `setKSearch` (counting the point itself; the paper has 30) or

@@ -16,6 +16,7 @@
 #include <pcl/impl/pcl_base.hpp>  // lets point types unknown to PCL link
 #include <pcl/kdtree/impl/kdtree_flann.hpp>
 #include <pcl/search/impl/kdtree.hpp>
+#include <pcl/search/impl/organized.hpp>
 #include <pcl/search/impl/search.hpp>
 #include <utility>
 
