@@ -177,78 +177,10 @@ class Builder {
   BoundaryComplex result_;
 };
 
-// Finds the contacts from the darts alone: different edges of the manifold in the same place.
-class PinchFinder {
- public:
-  PinchFinder(const SlabLabels& labels, const BoundaryComplex& boundary)
-      : labels_(labels), boundary_(boundary) {}
-
-  std::vector<Pinch> find() {
-    addEdges();
-    if (pinches_.empty()) addPoints();  // most points are the ends of such edges
-    return std::move(pinches_);
-  }
-
- private:
-  struct Place {
-    int from;
-    int to;
-    int shell;
-    bool operator<(const Place& o) const {
-      return std::tie(from, to, shell) < std::tie(o.from, o.to, o.shell);
-    }
-    bool operator==(const Place& o) const {
-      return from == o.from && to == o.to && shell == o.shell;
-    }
-  };
-
-  int shellOf(std::size_t dart) const { return boundary_.shell[at(boundary_.element[dart])]; }
-
-  // Every edge has one dart in each sense, unless the shell is there twice.
-  void addEdges() {
-    std::vector<Place> places;
-    for (std::size_t d = 0; d < boundary_.numDarts(); ++d) {
-      const int from = boundary_.corner[d];
-      const int to = boundary_.corner[at(boundary_.next[d])];
-      if (from < to) places.push_back({from, to, shellOf(d)});
-    }
-    addRepeated(places);
-  }
-
-  void addPoints() {
-    std::vector<Place> places;
-    std::vector<char> seen(boundary_.umbrella_corner.size(), 0);
-    for (std::size_t d = 0; d < boundary_.numDarts(); ++d) {
-      char& known = seen[at(boundary_.umbrella[d])];
-      if (known == 0) places.push_back({boundary_.corner[d], boundary_.corner[d], shellOf(d)});
-      known = 1;
-    }
-    addRepeated(places);
-  }
-
-  void addRepeated(std::vector<Place>& places) {
-    std::sort(places.begin(), places.end());
-    for (std::size_t i = 1; i < places.size(); ++i) {
-      if (!(places[i] == places[i - 1])) continue;
-      const int n = labels_.numLevels();
-      const int slab = std::min(places[i].from % n, labels_.numSlabs() - 1);
-      pinches_.push_back({places[i].from / n, places[i].to / n, slab});
-    }
-  }
-
-  const SlabLabels& labels_;
-  const BoundaryComplex& boundary_;
-  std::vector<Pinch> pinches_;
-};
-
 }  // namespace
 
 BoundaryComplex buildBoundary(const PlanArrangement& plan, const SlabLabels& labels) {
   return Builder(plan, labels).build();
-}
-
-std::vector<Pinch> findPinches(const SlabLabels& labels, const BoundaryComplex& boundary) {
-  return PinchFinder(labels, boundary).find();
 }
 
 }  // namespace detail

@@ -30,7 +30,7 @@ class RegionFinder {
         sources_(sources),
         strip_(strip),
         sets_(boundary.elements.size()),
-        points_(boundary.elements.size()) {}
+        pieces_(boundary.elements.size()) {}
 
   std::vector<int> find() {
     uniteExact();
@@ -52,7 +52,7 @@ class RegionFinder {
     for (int i = 0; i < static_cast<int>(boundary_.elements.size()); ++i) {
       const Element& face = boundary_.elements[at(i)];
       if (face.kind != ElementKind::Wall || sets_.find(i) != i) continue;
-      points_[at(i)] = {plan_.from(face.plan), plan_.to(face.plan)};
+      pieces_[at(i)] = {{plan_.from(face.plan), plan_.to(face.plan)}};
     }
   }
 
@@ -61,14 +61,38 @@ class RegionFinder {
       const int a = sets_.find(c.a);
       const int b = sets_.find(c.b);
       if (a == b) continue;
-      std::vector<GridPoint> both = points_[at(a)];
-      both.insert(both.end(), points_[at(b)].begin(), points_[at(b)].end());
+      std::vector<GridSegment> both = pieces_[at(a)];
+      both.insert(both.end(), pieces_[at(b)].begin(), pieces_[at(b)].end());
       std::sort(both.begin(), both.end());
       both.erase(std::unique(both.begin(), both.end()), both.end());
-      if (!withinStrip(both, strip_)) continue;
+      if (!isStraight(both)) continue;
       sets_.unite(a, b);
-      points_[at(sets_.find(a))] = std::move(both);
+      pieces_[at(sets_.find(a))] = std::move(both);
     }
+  }
+
+  // Within the strip, one piece after the other along it: neither turning back nor two ways side
+  // by side at different heights.
+  bool isStraight(const std::vector<GridSegment>& pieces) const {
+    std::vector<GridPoint> points;
+    GridPoint sum;
+    for (const GridSegment& piece : pieces) {
+      points.insert(points.end(), {piece.first, piece.second});
+      sum = sum + (piece.second - piece.first);
+    }
+    if (!withinStrip(points, strip_)) return false;
+    const auto [from, to] = findChord(points);
+    const GridPoint chord = dot(to - from, sum) > 0 ? to - from : from - to;
+    std::vector<std::pair<std::int64_t, std::int64_t>> spans;
+    for (const GridSegment& piece : pieces) {
+      spans.emplace_back(dot(chord, piece.first), dot(chord, piece.second));
+      if (spans.back().second <= spans.back().first) return false;
+    }
+    std::sort(spans.begin(), spans.end());
+    for (std::size_t i = 1; i < spans.size(); ++i) {
+      if (spans[i].first < spans[i - 1].second) return false;
+    }
+    return true;
   }
 
   std::vector<Candidate> candidates() const {
@@ -80,9 +104,6 @@ class RegionFinder {
       const Element& second = boundary_.elements[at(b)];
       if (first.kind != ElementKind::Wall || second.kind != ElementKind::Wall) continue;
       if (plan_.target(first.plan) != plan_.origin[at(second.plan)]) continue;
-      const GridPoint u = plan_.to(first.plan) - plan_.from(first.plan);
-      const GridPoint v = plan_.to(second.plan) - plan_.from(second.plan);
-      if (dot(u, v) <= 0) continue;
       const int wall = sources_[at(a)].wall;
       result.push_back({wall < 0 || wall != sources_[at(b)].wall, a, b});
     }
@@ -105,7 +126,7 @@ class RegionFinder {
   const std::vector<FloorplanEdge>& sources_;
   std::int64_t strip_;
   UnionFind sets_;
-  std::vector<std::vector<GridPoint>> points_;  // of a region of walls, at its representative
+  std::vector<std::vector<GridSegment>> pieces_;  // of a region of walls, at its representative
 };
 
 }  // namespace

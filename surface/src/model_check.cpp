@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/surface/detail/model_darts.h>
 #include <storey/surface/model_check.h>
+#include <storey/surface/triangulation.h>
 
 #include <algorithm>
 #include <limits>
@@ -22,8 +23,7 @@ using detail::LatticePoint;
 using detail::ModelDarts;
 using detail::noteDefect;
 
-constexpr std::int64_t kPlanarStrip = 2;     // grid units wide: one to either side of the plane
-constexpr std::int64_t kSamePlaneStrip = 1;  // narrower: two faces need not be planar together
+constexpr std::int64_t kPlanarStrip = 2;  // grid units wide: one to either side of the plane
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
@@ -80,14 +80,19 @@ void readVertices(const PolyhedralModel& model, std::vector<LatticePoint>& point
   }
 }
 
-void checkRings(const PolyhedralModel& model, ModelCheck& check) {
+void checkRings(const PolyhedralModel& model, ModelDarts& darts, ModelCheck& check) {
   for (std::size_t f = 0; f < model.faces.size(); ++f) {
     bool good = true;
     for (std::vector<int> ring : allRings(model.faces[f])) {
       std::sort(ring.begin(), ring.end());
       good = good && ring.size() >= 3 && std::adjacent_find(ring.begin(), ring.end()) == ring.end();
     }
-    if (good && detail::isPolygon(detail::flattenFace(model, model.faces[f]))) continue;
+    const auto triangles =
+        good ? triangulateFace(model, model.faces[f]) : std::vector<std::array<int, 3>>{};
+    for (const std::array<int, 3>& t : triangles) {
+      darts.triangles.push_back({t, static_cast<int>(f)});
+    }
+    if (!triangles.empty()) continue;
     noteDefect(check.bad_rings, check.problems, faceName(f) + " is no polygon with holes in it");
   }
 }
@@ -138,7 +143,7 @@ bool samePlane(const PolyhedralFace& a, const PolyhedralFace& b,
   std::vector<GridPoint> both = planPoints(a, points);
   const std::vector<GridPoint> other = planPoints(b, points);
   both.insert(both.end(), other.begin(), other.end());
-  return detail::withinStrip(both, kSamePlaneStrip);
+  return detail::withinStrip(both, 0);
 }
 
 void checkNeighbours(const PolyhedralModel& model, const ModelDarts& darts, ModelCheck& check) {
@@ -170,12 +175,12 @@ ModelCheck checkModel(const PolyhedralModel& model) {
   ModelDarts darts;
   checkIndices(model, check);
   readVertices(model, darts.points, check);
-  checkRings(model, check);
+  checkRings(model, darts, check);
   if (!check.ok()) return check;
   checkPlanes(model, darts.points, check);
   checkTopology(model, darts, check);
   checkVolume(model, darts, check);
-  checkContacts(model, darts, check);
+  checkContacts(darts, check);
   checkNeighbours(model, darts, check);
   return check;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/surface/detail/model_darts.h>
 #include <storey/surface/detail/triangle_contact.h>
-#include <storey/surface/triangulation.h>
 
 #include <algorithm>
 #include <numeric>
@@ -23,8 +22,8 @@ struct ModelTriangle {
 
 class ContactChecker {
  public:
-  ContactChecker(const PolyhedralModel& model, const ModelDarts& darts, ModelCheck& check)
-      : model_(model), darts_(darts), check_(check), shell_of_vertex_(darts.points.size(), -1) {
+  ContactChecker(const ModelDarts& darts, ModelCheck& check)
+      : darts_(darts), check_(check), shell_of_vertex_(darts.points.size(), -1) {
     for (std::size_t d = 0; d < darts.numDarts(); ++d) {
       shell_of_vertex_[at(darts.from[d])] = darts.shell[at(darts.face[d])];
       edges_.emplace(darts.from[d], darts.to(static_cast<int>(d)));
@@ -95,17 +94,16 @@ class ContactChecker {
   }
 
   void collectTriangles() {
-    for (int f = 0; f < static_cast<int>(model_.faces.size()); ++f) {
-      for (const std::array<int, 3>& t : triangulateFace(model_, model_.faces[at(f)])) {
-        ModelTriangle triangle{t, {point(t[0]), point(t[1]), point(t[2])}, {}, {}, f};
-        for (std::size_t i = 0; i < 3; ++i) {
-          const auto& c = triangle.corners;
-          const auto [low, high] = std::minmax({c[0][i], c[1][i], c[2][i]});
-          triangle.low[i] = low;
-          triangle.high[i] = high;
-        }
-        triangles_.push_back(triangle);
+    for (const FaceTriangle& t : darts_.triangles) {
+      const auto& v = t.vertices;
+      ModelTriangle triangle{v, {point(v[0]), point(v[1]), point(v[2])}, {}, {}, t.face};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto& c = triangle.corners;
+        const auto [low, high] = std::minmax({c[0][i], c[1][i], c[2][i]});
+        triangle.low[i] = low;
+        triangle.high[i] = high;
       }
+      triangles_.push_back(triangle);
     }
     std::sort(triangles_.begin(), triangles_.end(),
               [](const ModelTriangle& a, const ModelTriangle& b) {
@@ -151,7 +149,6 @@ class ContactChecker {
     return edges_.count({t.vertices[at(edge)], t.vertices[at((edge + 1) % 3)]}) != 0;
   }
 
-  const PolyhedralModel& model_;
   const ModelDarts& darts_;
   ModelCheck& check_;
   std::vector<int> shell_of_vertex_;
@@ -161,8 +158,8 @@ class ContactChecker {
 
 }  // namespace
 
-void checkContacts(const PolyhedralModel& model, const ModelDarts& darts, ModelCheck& check) {
-  ContactChecker(model, darts, check).run();
+void checkContacts(const ModelDarts& darts, ModelCheck& check) {
+  ContactChecker(darts, check).run();
 }
 
 }  // namespace detail

@@ -59,25 +59,66 @@ void findTwins(ModelDarts& darts, ModelCheck& check) {
   check.edges = edges.size();
 }
 
+// The surface as triangles: a face that meets a vertex with two corners is once around it only if
+// the corners are not mixed up, and rings alone do not tell.
+class TriangleTopology {
+ public:
+  explicit TriangleTopology(const ModelDarts& darts) : darts_(darts) {
+    for (std::size_t t = 0; t < darts.triangles.size(); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        const int side = 3 * static_cast<int>(t) + i;
+        sides_.push_back({from(side), to(side), darts.triangles[t].face, side});
+      }
+    }
+    std::sort(sides_.begin(), sides_.end());
+    for (std::size_t d = 0; d < darts.numDarts(); ++d) {
+      if (darts.twin[d] < 0) continue;
+      other_face_[{darts.from[d], darts.to(static_cast<int>(d))}] = darts.face[at(darts.twin[d])];
+    }
+  }
+
+  int numSides() const { return static_cast<int>(sides_.size()); }
+  int face(int side) const { return darts_.triangles[at(side / 3)].face; }
+  int from(int side) const { return darts_.triangles[at(side / 3)].vertices[at(side % 3)]; }
+  int to(int side) const { return from(nextSide(side)); }
+  static int nextSide(int side) { return side - side % 3 + (side + 1) % 3; }
+  static int prevSide(int side) { return side - side % 3 + (side + 2) % 3; }
+
+  // The side of the triangle on the other side; -1 if there is none.
+  int twin(int side) const {
+    const auto border = other_face_.find({from(side), to(side)});
+    const int other = border == other_face_.end() ? face(side) : border->second;
+    const std::array<int, 4> key = {to(side), from(side), other, -1};
+    const auto it = std::lower_bound(sides_.begin(), sides_.end(), key);
+    if (it == sides_.end() || (*it)[0] != key[0] || (*it)[1] != key[1] || (*it)[2] != other) {
+      return -1;
+    }
+    return (*it)[3];
+  }
+
+ private:
+  const ModelDarts& darts_;
+  std::vector<std::array<int, 4>> sides_;          // from, to, face, side
+  std::map<std::pair<int, int>, int> other_face_;  // of the edges of the model
+};
+
 // The faces around a vertex must be one cycle.
-void checkVertices(const ModelDarts& darts, ModelCheck& check) {
-  std::vector<int> prev(darts.numDarts());
-  for (std::size_t d = 0; d < darts.numDarts(); ++d) prev[at(darts.next[d])] = static_cast<int>(d);
-  std::vector<char> seen(darts.numDarts(), 0);
+void checkVertices(const TriangleTopology& surface, const ModelDarts& darts, ModelCheck& check) {
+  std::vector<char> seen(at(surface.numSides()), 0);
   std::vector<char> visited(darts.points.size(), 0);
-  for (int first = 0; first < static_cast<int>(darts.numDarts()); ++first) {
+  for (int first = 0; first < surface.numSides(); ++first) {
     if (seen[at(first)] != 0) continue;
-    const int vertex = darts.from[at(first)];
+    const int vertex = surface.from(first);
     if (visited[at(vertex)] != 0) {
       noteDefect(check.split_vertices, check.problems,
                  "the faces at vertex " + std::to_string(vertex) + " are more than one cycle");
     }
     visited[at(vertex)] = 1;
-    int dart = first;
+    int side = first;
     do {
-      seen[at(dart)] = 1;
-      dart = darts.twin[at(prev[at(dart)])];
-    } while (dart != first);
+      seen[at(side)] = 1;
+      side = surface.twin(TriangleTopology::prevSide(side));
+    } while (side >= 0 && side != first);
   }
 }
 
@@ -107,24 +148,21 @@ void findShells(const PolyhedralModel& model, ModelDarts& darts, ModelCheck& che
   }
 }
 
-void checkEuler(const PolyhedralModel& model, const ModelDarts& darts, ModelCheck& check) {
+void checkEuler(const ModelDarts& darts, ModelCheck& check) {
   std::vector<std::set<int>> vertices(at(darts.num_shells));
-  std::vector<int> twice_edges(at(darts.num_shells), 0);
-  std::vector<int> euler(at(darts.num_shells), 0);
-  for (std::size_t d = 0; d < darts.numDarts(); ++d) {
-    const int shell = darts.shell[at(darts.face[d])];
-    vertices[at(shell)].insert(darts.from[d]);
-    ++twice_edges[at(shell)];
+  std::vector<int> triangles(at(darts.num_shells), 0);
+  for (const FaceTriangle& t : darts.triangles) {
+    const int shell = darts.shell[at(t.face)];
+    vertices[at(shell)].insert(t.vertices.begin(), t.vertices.end());
+    ++triangles[at(shell)];
   }
-  for (std::size_t f = 0; f < model.faces.size(); ++f) {
-    euler[at(darts.shell[f])] += 1 - static_cast<int>(model.faces[f].inner.size());
-  }
-  for (std::size_t s = 0; s < euler.size(); ++s) {
-    euler[s] += static_cast<int>(vertices[s].size()) - twice_edges[s] / 2;
-    check.euler += euler[s];
-    if (euler[s] <= 2 && euler[s] % 2 == 0) continue;
+  for (std::size_t s = 0; s < triangles.size(); ++s) {
+    // 2 E = 3 F in a closed surface of triangles; odd F cannot be one
+    const int twice = 2 * static_cast<int>(vertices[s].size()) - triangles[s];
+    check.euler += twice / 2;
+    if (twice <= 4 && twice % 4 == 0) continue;
     noteDefect(check.bad_euler, check.problems,
-               "shell " + std::to_string(s) + " has Euler number " + std::to_string(euler[s]));
+               "shell " + std::to_string(s) + " has Euler number " + std::to_string(twice / 2));
   }
 }
 
@@ -138,8 +176,8 @@ void checkTopology(const PolyhedralModel& model, ModelDarts& darts, ModelCheck& 
   findTwins(darts, check);
   findShells(model, darts, check);
   if (check.open_edges + check.overused_edges > 0) return;
-  checkVertices(darts, check);
-  checkEuler(model, darts, check);
+  checkVertices(TriangleTopology(darts), darts, check);
+  checkEuler(darts, check);
 }
 
 }  // namespace detail

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/surface/detail/model_darts.h>
-#include <storey/surface/triangulation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -72,13 +71,12 @@ int solidsAround(const PolyhedralModel& model, const ModelDarts& darts, int shel
 void checkShell(const PolyhedralModel& model, const ModelDarts& darts, int shell, Wide volume,
                 ModelCheck& check) {
   int solids = 0;
-  for (std::size_t f = 0; f < model.faces.size(); ++f) {
+  for (const FaceTriangle& t : darts.triangles) {
     // A point of a cap: one of a wall would be above and below the edges of others.
-    if (darts.shell[f] != shell || model.faces[f].label == FaceLabel::Wall) continue;
-    const auto triangles = triangulateFace(model, model.faces[f]);
-    if (triangles.empty()) continue;
+    if (darts.shell[at(t.face)] != shell) continue;
+    if (model.faces[at(t.face)].label == FaceLabel::Wall) continue;
     LatticePoint threefold{};
-    for (const int i : triangles.front()) {
+    for (const int i : t.vertices) {
       for (std::size_t k = 0; k < 3; ++k) threefold[k] += darts.points[at(i)][k];
     }
     solids = solidsAround(model, darts, shell, threefold);

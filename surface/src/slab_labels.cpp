@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 namespace storey {
@@ -13,7 +14,8 @@ namespace {
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // Noding moves a piece of an edge by less than one unit in x and in y.
-constexpr double kSourceDistance = 1.5;  // grid units
+constexpr double kSourceDistance = 1.5;   // grid units
+constexpr std::int64_t kSliverStrip = 2;  // grid units, as for planar walls
 
 // Cells by ascending y of their interior points, for a sweep along x.
 std::vector<int> sortByY(const PlanArrangement& plan) {
@@ -98,6 +100,61 @@ class SourceFinder {
   std::vector<std::size_t> by_ends_;
 };
 
+// A cell that is a strip no wider than the noise of the lattice goes with the neighbour that it has
+// the longest border with, in all slabs: no cap that is thinner than its wall is flat.
+class SliverMerger {
+ public:
+  SliverMerger(const PlanArrangement& plan, SlabLabels& labels) : plan_(plan), labels_(labels) {}
+
+  void merge() {
+    std::vector<std::vector<int>> sides(plan_.interior.size());
+    for (int h = 0; h < static_cast<int>(plan_.cell.size()); ++h) {
+      if (plan_.cell[at(h)] >= 0) sides[at(plan_.cell[at(h)])].push_back(h);
+    }
+    is_sliver_.assign(sides.size(), 0);
+    std::vector<int> open;
+    for (std::size_t c = 0; c < sides.size(); ++c) {
+      std::vector<GridPoint> corners;
+      for (const int h : sides[c]) corners.push_back(plan_.from(h));
+      is_sliver_[c] = withinStrip(corners, kSliverStrip);
+      if (is_sliver_[c] != 0) open.push_back(static_cast<int>(c));
+    }
+    // From the outside of a cluster of slivers inwards.
+    while (!open.empty()) {
+      std::vector<int> left;
+      for (const int c : open) {
+        if (!join(c, sides[at(c)])) left.push_back(c);
+      }
+      if (left.size() == open.size()) break;
+      open = std::move(left);
+    }
+  }
+
+ private:
+  bool join(int cell, const std::vector<int>& sides) {
+    std::map<int, double> border;  // neighbour -> length
+    for (const int h : sides) {
+      const int neighbour = plan_.cell[at(h ^ 1)];
+      if (neighbour >= 0 && is_sliver_[at(neighbour)] != 0) continue;
+      const GridPoint d = plan_.to(h) - plan_.from(h);
+      border[neighbour] += std::sqrt(static_cast<double>(dot(d, d)));
+    }
+    if (border.empty()) return false;
+    const auto longest =
+        std::max_element(border.begin(), border.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    for (int k = 0; k < labels_.numSlabs(); ++k) {
+      labels_.inside[at(k)][at(cell)] = labels_.solid(longest->first, k) ? 1 : 0;
+    }
+    is_sliver_[at(cell)] = 0;
+    return true;
+  }
+
+  const PlanArrangement& plan_;
+  SlabLabels& labels_;
+  std::vector<char> is_sliver_;
+};
+
 int levelIndex(const std::vector<std::int64_t>& levels, std::int64_t z) {
   return static_cast<int>(std::lower_bound(levels.begin(), levels.end(), z) - levels.begin());
 }
@@ -128,6 +185,7 @@ SlabLabels labelCells(const PlanArrangement& plan, const std::vector<GridLayer>&
       for (std::size_t c = 0; c < inside.size(); ++c) labels.inside[at(k)][c] |= inside[c];
     }
   }
+  SliverMerger(plan, labels).merge();
   return labels;
 }
 

@@ -36,7 +36,7 @@ struct ModelCheck {
   std::size_t faces = 0;
   std::size_t edges = 0;
   std::size_t shells = 0;  ///< connected parts of the surface
-  int euler = 0;           ///< V - E + F - (inner rings), over all shells: 2 for each of genus 0
+  int euler = 0;           ///< V - E + F of the triangulated surface: 2 for each shell of genus 0
 
   std::vector<std::string> problems;  ///< in words, the first few of each kind
 

@@ -63,11 +63,14 @@ struct BoundaryComplex {
 struct Pinch {
   int a;
   int b;
-  int slab;  ///< the slab that is to be filled around the contact to make an end of it
+  int slab;      ///< the slab that is to be filled around the contact to make an end of it
+  bool upright;  ///< a vertical edge, the height of the slab
 };
 
 BoundaryComplex buildBoundary(const PlanArrangement& plan, const SlabLabels& labels);
 
+/// All contacts that have to be filled: those of one shell with itself, and those of shells that
+/// the filling of others joins.
 std::vector<Pinch> findPinches(const SlabLabels& labels, const BoundaryComplex& boundary);
 
 }  // namespace detail

@@ -28,6 +28,9 @@ struct GridPoint {
   friend bool operator<(const GridPoint& a, const GridPoint& b) {
     return std::tie(a.x, a.y) < std::tie(b.x, b.y);
   }
+  friend GridPoint operator+(const GridPoint& a, const GridPoint& b) {
+    return {a.x + b.x, a.y + b.y};
+  }
   friend GridPoint operator-(const GridPoint& a, const GridPoint& b) {
     return {a.x - b.x, a.y - b.y};
   }

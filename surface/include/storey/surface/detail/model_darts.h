@@ -11,14 +11,20 @@
 namespace storey {
 namespace detail {
 
+struct FaceTriangle {
+  std::array<int, 3> vertices;
+  int face;
+};
+
 /// A model taken apart for the checks. A dart is one directed edge of a ring.
 struct ModelDarts {
-  std::vector<LatticePoint> points;  ///< of the vertices, relative to their smallest coordinates
-  std::vector<int> from;             ///< dart -> vertex
-  std::vector<int> next;             ///< dart -> the next one of its ring
-  std::vector<int> twin;             ///< dart -> the one in the opposite sense, -1: none or several
-  std::vector<int> face;             ///< dart -> face
-  std::vector<int> shell;            ///< face -> connected part of the surface
+  std::vector<FaceTriangle> triangles;  ///< ascending by face
+  std::vector<LatticePoint> points;     ///< of the vertices, relative to their smallest coordinates
+  std::vector<int> from;                ///< dart -> vertex
+  std::vector<int> next;                ///< dart -> the next one of its ring
+  std::vector<int> twin;   ///< dart -> the one in the opposite sense, -1: none or several
+  std::vector<int> face;   ///< dart -> face
+  std::vector<int> shell;  ///< face -> connected part of the surface
   int num_shells = 0;
 
   std::size_t numDarts() const { return from.size(); }
@@ -30,11 +36,11 @@ struct ModelDarts {
 /// Counts a defect and describes the first few of its kind.
 void noteDefect(std::size_t& count, std::vector<std::string>& problems, const std::string& what);
 
-/// The topology: edges, vertices, shells, Euler numbers. All indices must be good.
+/// The topology: edges, vertices, shells, Euler numbers. All faces must be polygons.
 void checkTopology(const PolyhedralModel& model, ModelDarts& darts, ModelCheck& check);
 
 /// T-junctions, contacts and intersections. All faces must be polygons.
-void checkContacts(const PolyhedralModel& model, const ModelDarts& darts, ModelCheck& check);
+void checkContacts(const ModelDarts& darts, ModelCheck& check);
 
 /// Volume, area, and the sense of the shells.
 void checkVolume(const PolyhedralModel& model, const ModelDarts& darts, ModelCheck& check);

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <storey/segmentation/layerwise_floorplan_extraction.h>
+#include <storey/surface/floorplan_grammar.h>
+
+#include <Eigen/Core>
+#include <string>
+
+namespace storey::reconstruct {
+
+/// What encloses the points: a building seen from outside, or a space (room, yard) from inside.
+enum class SpaceSide { Auto, Outside, Inside };
+
+/// Everything a user can set. Lengths are in the cloud's unit; 0 derives them from the cloud.
+struct Options {
+  std::string input;
+  std::string output_directory;
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< zero: found from the walls
+  SpaceSide side = SpaceSide::Auto;
+  bool estimate_normals = false;  ///< even if the file has some
+  double noise = 0.0;
+  double kept_share = 0.85;
+  double slice_thickness = 0.0;
+  double smoothness = 0.1;
+  double label_cost = 1.0;
+  double grid = 0.0;
+  FloorplanGrammar::Encoding encoding = FloorplanGrammar::Encoding::Walls;
+  detail::LinkingMethod linking = detail::LinkingMethod::Optimal;
+  bool exact = true;
+  unsigned int threads = 0;
+  bool intermediate = false;
+  bool quiet = false;
+};
+
+/// Reads the command line. \return false if help or the version was asked for and printed
+/// \throws io::Failure (Usage)
+bool parseOptions(int argc, char** argv, Options& options);
+
+}  // namespace storey::reconstruct

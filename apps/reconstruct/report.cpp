@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "reconstruct/report.h"
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "io/output_file.h"
+
+namespace storey::reconstruct {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kDegrees = 180.0 / M_PI;
+
+Json vector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Json describeInput(const Options& options, const Result& r) {
+  return {{"file", options.input},
+          {"format", r.loaded.format},
+          {"points", r.cloud->size()},
+          {"declared", r.loaded.declared},
+          {"dropped_non_finite", r.loaded.dropped_non_finite},
+          {"collapsed_duplicates", r.loaded.collapsed_duplicates},
+          {"zero_normals", r.loaded.zero_normals},
+          {"offset", vector(r.loaded.offset)}};
+}
+
+Json describeParameters(const Options& o) {
+  return {{"up", o.up.isZero() ? Json("derived") : vector(o.up)},
+          {"space", o.side == SpaceSide::Auto     ? "auto"
+                    : o.side == SpaceSide::Inside ? "inside"
+                                                  : "outside"},
+          {"noise", o.noise},
+          {"kept_share", o.kept_share},
+          {"slice_thickness", o.slice_thickness},
+          {"smoothness", o.smoothness},
+          {"label_cost", o.label_cost},
+          {"encoding", o.encoding == FloorplanGrammar::Encoding::Walls ? "walls" : "turns"},
+          {"linking", o.linking == detail::LinkingMethod::Optimal ? "optimal" : "greedy"},
+          {"minimization", o.exact ? "exact" : "alpha-expansion"}};
+}
+
+Json describeDirections(const Result& r) {
+  Json directions = Json::array();
+  for (std::size_t i = 0; i < r.directions.size(); ++i) {
+    directions.push_back(
+        {{"normal", vector(r.directions[i])},
+         {"azimuth_deg", std::atan2(r.directions[i].y(), r.directions[i].x()) * kDegrees},
+         {"points", r.direction_points[i]}});
+  }
+  return directions;
+}
+
+Json describeSlices(const Result& r) {
+  Json failures = Json::array();
+  std::size_t good = 0;
+  for (std::size_t i = 0; i < r.stages.size(); ++i) {
+    if (r.stages[i].failure.empty()) {
+      ++good;
+    } else {
+      failures.push_back({{"slice", i}, {"reason", r.stages[i].failure}});
+    }
+  }
+  return {{"thickness", r.slice_thickness},
+          {"count", r.stages.size()},
+          {"with_floorplan", good},
+          {"skipped", failures}};
+}
+
+Json describeLayers(const Result& r) {
+  const DominantFloorplans& d = r.model.dominant;
+  Json blocks = Json::array();
+  for (const FloorplanLayer& storey : r.model.model.storeys) {
+    blocks.push_back({{"z_min", storey.z_min},
+                      {"z_max", storey.z_max},
+                      {"components", storey.plan.components.size()},
+                      {"edges", countEdges(storey.plan)},
+                      {"area", area(storey.plan)}});
+  }
+  return {{"types", d.num_types},
+          {"candidates", d.num_candidates},
+          {"dictionary_size", d.dictionary_size},
+          {"energy", d.labeling.energy},
+          {"lower_bound", d.labeling.lower_bound},
+          {"optimal", d.labeling.optimal},
+          {"slice_types", d.slice_types},
+          {"blocks", blocks}};
+}
+
+Json describeWalls(const Result& r) {
+  Json walls = Json::array();
+  for (const auto& [id, wall] : r.model.walls) {
+    walls.push_back({{"wall", id},
+                     {"normal", {wall.normal.x(), wall.normal.y()}},
+                     {"offset", wall.offset},
+                     {"points", wall.support},
+                     {"residual", wall.residual},
+                     {"angle_deviation_deg",
+                      wall.support > 0 ? Json(wall.angle_deviation * kDegrees) : Json(nullptr)}});
+  }
+  return walls;
+}
+
+Json describeModel(const Result& r) {
+  const PolyhedralModel& model = r.model.model;
+  const ModelCheck& check = r.model.check;
+  std::size_t count[4] = {0, 0, 0, 0};
+  std::size_t hypothetical = 0;
+  for (const PolyhedralFace& face : model.faces) {
+    ++count[static_cast<int>(face.label)];
+    if (face.hypothetical) ++hypothetical;
+  }
+  return {{"polygons", model.faces.size()},
+          {"walls", count[0]},
+          {"roofs", count[1]},
+          {"grounds", count[2]},
+          {"ceilings", count[3]},
+          {"hypothetical_walls", hypothetical},
+          {"vertices", model.vertices.size()},
+          {"shells", model.num_shells},
+          {"grid", model.grid},
+          {"volume", check.volume},
+          {"area", check.area},
+          {"valid", check.ok()},
+          {"problems", check.problems}};
+}
+
+double peakMegabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+}  // namespace
+
+void writeReport(const std::string& path, const Options& options, const Result& r) {
+  Json report;
+  report["program"] = std::string("storey ") + STOREY_VERSION;
+  report["input"] = describeInput(options, r);
+  report["parameters"] = describeParameters(options);
+  report["normals"] = {{"estimated", r.normals_k > 0}, {"neighbors", r.normals_k}};
+  report["vertical"] = {{"up", vector(r.up)},
+                        {"taken_as_z", r.level},
+                        {"wall_share", r.vertical.wall_share},
+                        {"second_score", r.vertical.second_score},
+                        {"deviation_deg", r.vertical.deviation * kDegrees}};
+  report["space"] = {{"side", r.inside ? "inside" : "outside"}, {"reason", r.side_reason}};
+  report["scale"] = {{"noise", r.noise},
+                     {"measured_noise", r.scale.noise},
+                     {"spacing", r.scale.spacing},
+                     {"density", r.scale.density},
+                     {"extent", r.scale.extent}};
+  report["planar"] = {{"T_k", r.planar_threshold}, {"points", r.planar.size()}};
+  report["directions"] = describeDirections(r);
+  report["slices"] = describeSlices(r);
+  report["layers"] = describeLayers(r);
+  report["walls"] = describeWalls(r);
+  report["model"] = describeModel(r);
+  Json& seconds = report["seconds"];
+  double total = 0.0;
+  for (const StageTime& stage : r.times) {
+    seconds[stage.name] = stage.seconds;
+    total += stage.seconds;
+  }
+  seconds["total"] = total;
+  report["peak_megabytes"] = peakMegabytes();
+
+  io::OutputFile file(path);
+  // File names need not be UTF-8, JSON must be: replace what is not.
+  file.write(report.dump(2, ' ', false, Json::error_handler_t::replace));
+  file.write("\n");
+  file.commit();
+}
+
+}  // namespace storey::reconstruct

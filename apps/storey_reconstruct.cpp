@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// storey_reconstruct CLOUD -o DIRECTORY: a small closed model of a building from its point cloud.
+#include <pcl/console/print.h>
+
+#include <cstdio>
+
+#include "io/failure.h"
+#include "io/model_io.h"
+#include "io/output_file.h"
+#include "reconstruct/intermediate.h"
+#include "reconstruct/options.h"
+#include "reconstruct/pipeline.h"
+#include "reconstruct/report.h"
+
+namespace storey::reconstruct {
+namespace {
+
+int run(int argc, char** argv) {
+  Options options;
+  if (!parseOptions(argc, argv, options)) return io::Ok;
+  const auto progress = [&](const std::string& line) {
+    if (!options.quiet) std::fprintf(stderr, "%s\n", line.c_str());
+  };
+  // What the libraries would print belongs into our one line on stderr.
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+
+  const Result result = reconstruct(options, progress);
+  const io::OutputDirectory directory(options.output_directory);
+  const PolyhedralModel& model = result.model.model;
+  io::writeModelPly(directory.file("model.ply"), model, result.local_to_input);
+  io::writeModelObj(directory.file("model.obj"), model, result.local_to_input);
+  io::writeFloorplansGeoJson(directory.file("floorplans.geojson"), model.storeys,
+                             result.local_to_input);
+  if (options.intermediate) writeIntermediate(directory, result);
+  writeReport(directory.file("report.json"), options, result);  // last: all the others are there
+  if (!result.model.check.ok()) {
+    throw io::Failure(io::Internal, options.input, "the model failed its checks",
+                      "see report.json, and report it with the cloud");
+  }
+  return io::Ok;
+}
+
+}  // namespace
+}  // namespace storey::reconstruct
+
+int main(int argc, char** argv) {
+  return storey::io::runMain("storey_reconstruct",
+                             [&] { return storey::reconstruct::run(argc, argv); });
+}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl/console/print.h>
+#include <storey/features/anisotropic_normal_estimation.h>
+#include <storey/features/detail/thread_count.h>
+#include <storey/filters/anisotropic_position_refinement.h>
+#include <storey/filters/cloud_scale.h>
+#include <storey/filters/gravity_slicing.h>
+#include <storey/segmentation/dominant_direction_clustering.h>
+#include <storey/segmentation/dominant_direction_labeling.h>
+#include <storey/segmentation/edge_region_growing.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace storey {
+
+template <typename PointT>
+bool LayerwiseFloorplanExtraction<PointT>::prepare(std::vector<pcl::PointIndices>& slices) {
+  if (!(noise_ >= 0.0) || !(thickness_ >= 0.0) || k_ < 3) {
+    PCL_ERROR(
+        "[storey::LayerwiseFloorplanExtraction] noise is %g, thickness %g, k %d; expected >= 0, "
+        ">= 0, >= 3.\n",
+        noise_, thickness_, k_);
+    return false;
+  }
+  const CloudScale scale = noise_ > 0.0 ? CloudScale{noise_} : estimateCloudScale(*this->input_);
+  used_noise_ = std::max(scale.noise, detail::kSliceLeastNoise * scale.extent);
+  GravitySlicing<PointT> slicing;
+  slicing.setInputCloud(this->input_);
+  slicing.setIndices(this->indices_);
+  slicing.setSliceThickness(thickness_);
+  slicing.extract(slices);
+  used_thickness_ = slicing.getSliceThickness();
+  if (slices.empty()) {
+    PCL_ERROR("[storey::LayerwiseFloorplanExtraction] no wall points.\n");
+    return false;
+  }
+  if (directions_.empty()) {
+    DominantDirectionClustering<PointT> clustering;
+    clustering.setInputCloud(this->input_);
+    clustering.setIndices(this->indices_);
+    clustering.setNumberOfThreads(threads_);
+    std::vector<pcl::PointIndices> clusters;
+    clustering.extract(clusters);
+    directions_ = clustering.getDirections();
+  }
+  stages_.assign(slices.size(), {});
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    stages_[i].z_min = slicing.getSliceRanges()[i].first;
+    stages_[i].z_max = slicing.getSliceRanges()[i].second;
+  }
+  return true;
+}
+
+template <typename PointT>
+void LayerwiseFloorplanExtraction<PointT>::labelAndRefine(SliceStages<PointT>& stages) const {
+  const auto smoothed = pcl::make_shared<pcl::PointCloud<PointT>>(stages.smoothed);
+  DominantDirectionLabeling<PointT> labeling;
+  labeling.setInputCloud(smoothed);
+  labeling.setDirections(directions_);
+  const auto labels = pcl::make_shared<pcl::PointCloud<pcl::Label>>();
+  labeling.segment(*labels);
+  // From here on the normal of a point is that of its label.
+  const auto labelled = pcl::make_shared<pcl::PointCloud<PointT>>(*smoothed);
+  stages.labels.assign(smoothed->size(), -1);
+  for (std::size_t i = 0; i < labels->size(); ++i) {
+    const std::uint32_t label = (*labels)[i].label;
+    if (label >= directions_.size()) continue;
+    stages.labels[i] = static_cast<int>(label);
+    (*labelled)[i].getNormalVector3fMap() = directions_[label].template cast<float>();
+  }
+  EdgeRegionGrowing<PointT> growing;
+  growing.setInputCloud(smoothed);
+  growing.setLabels(labels);
+  growing.extract(stages.regions);
+  for (const std::uint32_t label : growing.getRegionLabels()) {
+    stages.region_labels.push_back(static_cast<int>(label));
+  }
+  AnisotropicPositionRefinement<PointT> refinement;
+  refinement.setInputCloud(labelled);
+  refinement.setRegions(stages.regions);
+  refinement.setKSearch(k_);
+  refinement.setNumberOfThreads(1);
+  refinement.filter(stages.refined);
+}
+
+template <typename PointT>
+void LayerwiseFloorplanExtraction<PointT>::processSlice(const pcl::PointIndices& slice,
+                                                        SliceStages<PointT>& stages) const {
+  stages.indices = slice.indices;
+  if (slice.indices.empty()) {
+    stages.failure = "no points";
+    return;
+  }
+  const auto projected = pcl::make_shared<pcl::PointCloud<PointT>>();
+  projectSlice(*this->input_, slice, 0.5 * (stages.z_min + stages.z_max), *projected);
+  AnisotropicNormalEstimation<PointT> smoothing;
+  smoothing.setInputCloud(projected);
+  smoothing.setInputNormals(projected);
+  smoothing.setKSearch(k_);
+  smoothing.setNumberOfThreads(1);
+  smoothing.compute(stages.smoothed);
+  labelAndRefine(stages);
+
+  SliceFloorplanExtraction<PointT> extraction;
+  extraction.setInputCloud(pcl::make_shared<pcl::PointCloud<PointT>>(stages.refined));
+  extraction.setRegions(stages.regions, stages.region_labels);
+  extraction.setDirections(directions_);
+  extraction.setNoise(used_noise_);
+  extraction.setLinkingMethod(method_);
+  extraction.extract(stages.floorplan);
+  stages.failure = extraction.getFailure();
+  stages.segments = extraction.getSegments();
+  if (keep_stages_) {
+    stages.projected = *projected;
+    return;
+  }
+  stages.smoothed = {};
+  stages.refined = {};
+  stages.labels = {};
+  stages.regions = {};
+  stages.region_labels = {};
+}
+
+template <typename PointT>
+bool LayerwiseFloorplanExtraction<PointT>::extract(std::vector<FloorplanLayer>& layers) {
+  layers.clear();
+  stages_.clear();
+  used_thickness_ = 0.0;
+  if (!this->initCompute()) return false;
+  std::vector<pcl::PointIndices> slices;
+  const bool prepared = prepare(slices);
+  if (prepared) {
+    const auto count = static_cast<std::ptrdiff_t>(slices.size());
+#pragma omp parallel for num_threads(detail::threadCount(threads_)) schedule(dynamic, 1)
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+      const auto s = static_cast<std::size_t>(i);
+      processSlice(slices[s], stages_[s]);
+    }
+    for (const SliceStages<PointT>& stages : stages_) {
+      layers.push_back({stages.z_min, stages.z_max, stages.floorplan});
+    }
+  }
+  this->deinitCompute();
+  return prepared;
+}
+
+}  // namespace storey

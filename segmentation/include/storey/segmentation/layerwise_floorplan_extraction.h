@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl/PointIndices.h>
+#include <pcl/pcl_base.h>
+#include <pcl/point_types.h>
+#include <storey/filters/eigen_alignment.h>
+#include <storey/segmentation/slice_floorplan_extraction.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace storey {
+
+/// All that is known of one slice on its way from points to a floorplan. The clouds are parallel:
+/// point i of each is point `indices[i]` of the input.
+template <typename PointT>
+struct SliceStages {
+  double z_min = 0.0;
+  double z_max = 0.0;
+  pcl::Indices indices;
+  pcl::PointCloud<PointT> projected;       ///< onto the horizontal plane at mid-height
+  pcl::PointCloud<PointT> smoothed;        ///< normals by (1)-(3)
+  std::vector<int> labels;                 ///< index of the direction by (4)-(6); -1: none
+  std::vector<pcl::PointIndices> regions;  ///< edge regions, of points of the slice
+  std::vector<int> region_labels;          ///< parallel to `regions`
+  pcl::PointCloud<PointT> refined;         ///< positions by (7)-(8), normals of the labels
+  std::vector<detail::LineSegment> segments;
+  Floorplan floorplan;
+  std::string failure;  ///< why there is no floorplan; empty if there is one
+};
+
+/// The first room of the house: the floorplans of all slices of a building [Sui et al. 2016,
+/// section 3]. Cuts the cloud along gravity and takes each slice through `projectSlice`,
+/// `AnisotropicNormalEstimation`, `DominantDirectionLabeling`, `EdgeRegionGrowing`,
+/// `AnisotropicPositionRefinement` and `SliceFloorplanExtraction`. Slices are independent and run
+/// in parallel; the result does not depend on the number of threads.
+///
+/// Needs an upright cloud (+z is up) with outward normals; only the indexed points are used.
+template <typename PointT>
+class LayerwiseFloorplanExtraction : public pcl::PCLBase<PointT> {
+ public:
+  using Ptr = pcl::shared_ptr<LayerwiseFloorplanExtraction<PointT>>;
+  using ConstPtr = pcl::shared_ptr<const LayerwiseFloorplanExtraction<PointT>>;
+  using LinkingMethod = detail::LinkingMethod;
+
+  /// Dominant directions; none (default): `DominantDirectionClustering` finds them in the input.
+  void setDirections(const std::vector<Eigen::Vector3d>& directions) { directions_ = directions; }
+  /// The directions set, or found by the last `extract`.
+  const std::vector<Eigen::Vector3d>& getDirections() const { return directions_; }
+
+  /// Standard deviation of the points across their walls; 0 (default): estimated from the input.
+  void setNoise(double noise) { noise_ = noise; }
+  double getNoise() const { return noise_; }
+
+  /// Thickness of a slice; 0 (default): see `GravitySlicing`.
+  void setSliceThickness(double thickness) { thickness_ = thickness; }
+  /// The thickness set, or used by the last `extract`.
+  double getSliceThickness() const { return used_thickness_ > 0.0 ? used_thickness_ : thickness_; }
+
+  /// Neighbours of a point within its slice, for the normals and the positions; default 30.
+  void setKSearch(int k) { k_ = k; }
+  int getKSearch() const { return k_; }
+
+  void setLinkingMethod(LinkingMethod method) { method_ = method; }
+  LinkingMethod getLinkingMethod() const { return method_; }
+
+  /// Whether the clouds of all stages are kept for `getStages`; default no: they take several
+  /// times the memory of the input. Floorplans, segments and failures are kept in any case.
+  void setKeepStages(bool keep) { keep_stages_ = keep; }
+  bool getKeepStages() const { return keep_stages_; }
+
+  /// 0 (default) = all cores.
+  void setNumberOfThreads(unsigned int threads = 0) { threads_ = threads; }
+  unsigned int getNumberOfThreads() const { return threads_; }
+
+  /// One layer a slice, bottom to top; the floorplan of a slice that gives none is empty.
+  /// \return false, after a PCL_ERROR, for no input, a bad parameter or no wall points
+  bool extract(std::vector<FloorplanLayer>& layers);
+
+  /// What became of each slice in the last `extract`, parallel to its layers.
+  const std::vector<SliceStages<PointT>>& getStages() const { return stages_; }
+
+ private:
+  bool prepare(std::vector<pcl::PointIndices>& slices);
+  void processSlice(const pcl::PointIndices& slice, SliceStages<PointT>& stages) const;
+  void labelAndRefine(SliceStages<PointT>& stages) const;
+
+  std::vector<Eigen::Vector3d> directions_;
+  double noise_ = 0.0;
+  double used_noise_ = 0.0;
+  double thickness_ = 0.0;
+  double used_thickness_ = 0.0;
+  int k_ = 30;  // points, as for the planar confidence
+  LinkingMethod method_ = LinkingMethod::Optimal;
+  bool keep_stages_ = false;
+  unsigned int threads_ = 0;
+  std::vector<SliceStages<PointT>> stages_;
+};
+
+}  // namespace storey
+
+#include <storey/segmentation/impl/layerwise_floorplan_extraction.hpp>
+
+#ifndef PCL_NO_PRECOMPILE
+extern template class storey::LayerwiseFloorplanExtraction<pcl::PointNormal>;
+extern template class storey::LayerwiseFloorplanExtraction<pcl::PointXYZINormal>;
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <geos_c.h>
+#include <storey/segmentation/floorplan.h>
+
+#include <memory>
+#include <vector>
+
+namespace storey::detail {
+
+/// One GEOS context: reentrant, and silent (what fails returns null and is handled).
+class GeosContext {
+ public:
+  GeosContext() : handle_(GEOS_init_r()) {}
+  ~GeosContext() { GEOS_finish_r(handle_); }
+  GeosContext(const GeosContext&) = delete;
+  GeosContext& operator=(const GeosContext&) = delete;
+
+  GEOSContextHandle_t get() const { return handle_; }
+
+ private:
+  GEOSContextHandle_t handle_;
+};
+
+struct GeosGeometryDeleter {
+  GEOSContextHandle_t handle;
+  void operator()(GEOSGeometry* geometry) const { GEOSGeom_destroy_r(handle, geometry); }
+};
+using GeosGeometry = std::unique_ptr<GEOSGeometry, GeosGeometryDeleter>;
+
+inline GeosGeometry own(const GeosContext& context, GEOSGeometry* geometry) {
+  return {geometry, GeosGeometryDeleter{context.get()}};
+}
+
+/// The ring as a linear ring; null if it cannot be one.
+GeosGeometry makeLinearRing(const GeosContext& context,
+                            const std::vector<Eigen::Vector2d>& vertices);
+
+/// Vertices of a linear ring, the closing one left out.
+std::vector<Eigen::Vector2d> ringVertices(const GeosContext& context, const GEOSGeometry* ring);
+
+}  // namespace storey::detail

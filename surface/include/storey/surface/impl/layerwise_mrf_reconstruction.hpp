@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl/common/io.h>
+#include <pcl/common/point_tests.h>
+#include <pcl/console/print.h>
+#include <pcl/conversions.h>
+#include <storey/filters/cloud_scale.h>
+#include <storey/segmentation/layerwise_floorplan_extraction.h>
+#include <storey/surface/mesh_export.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace storey {
+namespace detail {
+
+// Lines of slices scatter by less than this about their wall, and walls further apart differ.
+constexpr double kLetterToleranceInNoise = 1.5;
+
+/// The finite points with their normals; a normal that is not finite becomes zero (unknown).
+template <typename PointT>
+FitPoints toFitPoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices) {
+  FitPoints points;
+  points.positions.reserve(indices.size());
+  points.normals.reserve(indices.size());
+  for (const pcl::index_t i : indices) {
+    const PointT& p = cloud[static_cast<std::size_t>(i)];
+    if (!pcl::isXYZFinite(p)) continue;
+    points.positions.emplace_back(p.x, p.y, p.z);
+    const bool known = pcl::isNormalFinite(p);
+    points.normals.push_back(known ? Eigen::Vector3f(p.normal_x, p.normal_y, p.normal_z)
+                                   : Eigen::Vector3f(Eigen::Vector3f::Zero()));
+  }
+  return points;
+}
+
+}  // namespace detail
+
+template <typename PointT>
+bool LayerwiseMRFReconstruction<PointT>::parametersValid() const {
+  for (const double value : {noise_, grid_, options_.smoothness, options_.label_cost}) {
+    if (!(value >= 0.0) || std::isinf(value)) {
+      PCL_ERROR("[storey::%s] a parameter is %g, expected finite and >= 0.\n",
+                getClassName().c_str(), value);
+      return false;
+    }
+  }
+  return true;
+}
+
+template <typename PointT>
+bool LayerwiseMRFReconstruction<PointT>::build() {
+  result_ = {};
+  if (!this->initCompute() || !parametersValid()) return false;
+  const CloudScale scale = noise_ > 0.0 ? CloudScale{noise_} : estimateCloudScale(*this->input_);
+  LayerwiseModelOptions options;
+  options.noise = std::max(scale.noise, detail::kSliceLeastNoise * scale.extent);
+  options.dominant = options_;
+  options.dominant.length_tolerance = detail::kLetterToleranceInNoise * options.noise;
+  options.grid = grid_;
+  std::vector<FloorplanLayer> slices = floorplans_;
+  if (slices.empty()) {
+    LayerwiseFloorplanExtraction<PointT> extraction;
+    extraction.setInputCloud(this->input_);
+    extraction.setIndices(this->indices_);
+    extraction.setNoise(noise_);
+    extraction.extract(slices);
+  }
+  if (!slices.empty()) {
+    options.slice_thickness = slices.front().z_max - slices.front().z_min;
+    result_ = buildLayerwiseModel(slices, detail::toFitPoints(*this->input_, *this->indices_),
+                                  options);
+  }
+  this->deinitCompute();
+  if (!result_.model.empty()) return true;
+  PCL_ERROR("[storey::%s] no slice has a floorplan.\n", getClassName().c_str());
+  return false;
+}
+
+template <typename PointT>
+void LayerwiseMRFReconstruction<PointT>::performReconstruction(pcl::PolygonMesh& output) {
+  output = toPolygonMesh(result_.model);
+  output.header = this->input_->header;
+  output.cloud.header = this->input_->header;
+}
+
+template <typename PointT>
+void LayerwiseMRFReconstruction<PointT>::performReconstruction(
+    pcl::PointCloud<PointT>& points, std::vector<pcl::Vertices>& polygons) {
+  const pcl::PolygonMesh mesh = toPolygonMesh(result_.model);
+  pcl::PointCloud<pcl::PointXYZ> vertices;
+  pcl::fromPCLPointCloud2(mesh.cloud, vertices);
+  pcl::copyPointCloud(vertices, points);
+  points.header = this->input_->header;
+  polygons = mesh.polygons;
+}
+
+// The base class reads the header of the input before it tests for one, and copies the input.
+template <typename PointT>
+void LayerwiseMRFReconstruction<PointT>::reconstruct(pcl::PolygonMesh& output) {
+  output = {};
+  if (build()) performReconstruction(output);
+}
+
+template <typename PointT>
+void LayerwiseMRFReconstruction<PointT>::reconstruct(pcl::PointCloud<PointT>& points,
+                                                     std::vector<pcl::Vertices>& polygons) {
+  points.clear();
+  polygons.clear();
+  if (build()) performReconstruction(points, polygons);
+}
+
+}  // namespace storey

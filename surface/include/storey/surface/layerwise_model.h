@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <storey/surface/dominant_floorplans.h>
+#include <storey/surface/floorplan_fitting.h>
+#include <storey/surface/model_check.h>
+#include <storey/surface/polyhedral_model.h>
+
+#include <map>
+#include <vector>
+
+namespace storey {
+
+struct LayerwiseModelOptions {
+  DominantFloorplanOptions dominant;
+  double noise = 0.0;            ///< standard deviation of the points about their walls, > 0
+  double slice_thickness = 0.0;  ///< > 0; heights are sought within 1.5 slices of a boundary
+  double grid = 0.0;             ///< see extrudeFloorplans
+};
+
+struct LayerwiseModel {
+  DominantFloorplans dominant;
+  std::map<int, WallFit> walls;  ///< by wall id
+  PolyhedralModel model;
+  ModelCheck check;
+};
+
+/// The second room of the house: floorplans of slices to a checked solid. Dominant floorplans are
+/// chosen (11)-(15), their walls and heights fitted to all points, and extruded.
+/// \return an empty model if no slice has a floorplan
+LayerwiseModel buildLayerwiseModel(const std::vector<FloorplanLayer>& slices,
+                                   const FitPoints& points,
+                                   const LayerwiseModelOptions& options);
+
+}  // namespace storey

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl/point_types.h>
+#include <pcl/surface/reconstruction.h>
+#include <storey/filters/eigen_alignment.h>
+#include <storey/surface/layerwise_model.h>
+
+#include <string>
+#include <vector>
+
+namespace storey {
+
+/// Reconstructs a building as a closed polyhedron over a few dominant floorplans [Sui et al. 2016,
+/// section 4]: an MRF over the layers, (11)-(15), chooses the dominant floorplans and propagates
+/// them to their neighbours; walls and heights are fitted to all points; equal neighbours merge
+/// into blocks, and coplanar facets into polygons.
+///
+/// Needs an upright cloud (+z is up) with outward normals. Floorplans of the slices come from
+/// `setFloorplans`; without them `LayerwiseFloorplanExtraction` extracts them from the input.
+///
+/// The result is `getModel`, a polyhedron with double vertices; the `pcl::PolygonMesh` is its
+/// triangulated export with the header of the input. Without an input, or where no slice has a
+/// floorplan, the output is empty after a PCL_ERROR. Deterministic.
+/// \note Deviations, each with its reason: the energy is minimised exactly (`minimizeLayerEnergy`),
+/// the distance of floorplans knows their position (`FloorplanGrammar`), shapes and heights are
+/// fitted to the points again (`fitWalls`, `fitHeights`), the mesh is conforming
+/// (`extrudeFloorplans`).
+template <typename PointT>
+class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
+ public:
+  using Ptr = pcl::shared_ptr<LayerwiseMRFReconstruction<PointT>>;
+  using ConstPtr = pcl::shared_ptr<const LayerwiseMRFReconstruction<PointT>>;
+
+  LayerwiseMRFReconstruction() { this->check_tree_ = false; }
+
+  /// Floorplans of the slices, bottom to top; empty ones are skipped. None (default): extracted.
+  void setFloorplans(const std::vector<FloorplanLayer>& floorplans) { floorplans_ = floorplans; }
+  const std::vector<FloorplanLayer>& getFloorplans() const { return floorplans_; }
+
+  /// Standard deviation of the points across their walls; 0 (default): estimated from the input.
+  void setNoise(double noise) { noise_ = noise; }
+  double getNoise() const { return noise_; }
+
+  /// eta1, (11), >= 0; see `DominantFloorplanOptions::smoothness`.
+  void setSmoothness(double eta1) { options_.smoothness = eta1; }
+  double getSmoothness() const { return options_.smoothness; }
+
+  /// eta2, (11), >= 0; default 1.
+  void setLabelCost(double eta2) { options_.label_cost = eta2; }
+  double getLabelCost() const { return options_.label_cost; }
+
+  /// How floorplans are compared; default `FloorplanGrammar::Encoding::Walls`.
+  void setEncoding(FloorplanGrammar::Encoding encoding) { options_.encoding = encoding; }
+  FloorplanGrammar::Encoding getEncoding() const { return options_.encoding; }
+
+  /// Whether (11) is minimised globally (default) or by alpha-expansion as in the paper.
+  void setExactMinimization(bool exact) { options_.exact = exact; }
+  bool getExactMinimization() const { return options_.exact; }
+
+  /// Unit of the vertices' lattice; 0 (default): see `extrudeFloorplans`.
+  void setGrid(double grid) { grid_ = grid; }
+  double getGrid() const { return grid_; }
+
+  void reconstruct(pcl::PolygonMesh& output) override;
+  void reconstruct(pcl::PointCloud<PointT>& points, std::vector<pcl::Vertices>& polygons) override;
+
+  /// The polyhedron of the last `reconstruct`.
+  const PolyhedralModel& getModel() const { return result_.model; }
+  /// Everything found on the way: types, blocks, energy, walls, the model's checks.
+  const LayerwiseModel& getResult() const { return result_; }
+
+ protected:
+  void performReconstruction(pcl::PolygonMesh& output) override;
+  void performReconstruction(pcl::PointCloud<PointT>& points,
+                             std::vector<pcl::Vertices>& polygons) override;
+  std::string getClassName() const override { return "LayerwiseMRFReconstruction"; }
+
+ private:
+  bool parametersValid() const;
+  bool build();
+
+  std::vector<FloorplanLayer> floorplans_;
+  DominantFloorplanOptions options_;
+  double noise_ = 0.0;
+  double grid_ = 0.0;
+  LayerwiseModel result_;
+};
+
+}  // namespace storey
+
+#include <storey/surface/impl/layerwise_mrf_reconstruction.hpp>
+
+#ifndef PCL_NO_PRECOMPILE
+extern template class storey::LayerwiseMRFReconstruction<pcl::PointNormal>;
+extern template class storey::LayerwiseMRFReconstruction<pcl::PointXYZINormal>;
+#endif

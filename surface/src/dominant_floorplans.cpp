@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <storey/surface/dominant_floorplans.h>
+
+#include <algorithm>
+#include <map>
+
+namespace storey {
+namespace {
+
+// The candidates: floorplans at distance 0 are one type, represented by the first of them.
+struct Candidates {
+  std::vector<std::size_t> representative;  // floorplan of each candidate
+  std::vector<double> share;                // W_T
+};
+
+Candidates findCandidates(const FloorplanGrammar& grammar, std::size_t num_plans) {
+  Candidates candidates;
+  for (std::size_t i = 0; i < num_plans; ++i) {
+    std::size_t t = 0;
+    while (t < candidates.representative.size() &&
+           grammar.distance(candidates.representative[t], i) > 0.0) {
+      ++t;
+    }
+    if (t == candidates.representative.size()) {
+      candidates.representative.push_back(i);
+      candidates.share.push_back(0.0);
+    }
+    candidates.share[t] += 1.0 / static_cast<double>(num_plans);
+  }
+  return candidates;
+}
+
+LayerEnergy buildEnergy(const FloorplanGrammar& grammar, const Candidates& candidates,
+                        std::size_t num_plans, const DominantFloorplanOptions& options) {
+  LayerEnergy energy;
+  energy.num_nodes = num_plans;
+  energy.num_labels = candidates.representative.size();
+  for (std::size_t i = 0; i < num_plans; ++i) {  // (12)
+    for (const std::size_t t : candidates.representative) {
+      energy.data.push_back(grammar.distance(t, i));
+    }
+  }
+  for (const std::size_t a : candidates.representative) {  // (13)
+    for (const std::size_t b : candidates.representative) {
+      const double d = grammar.distance(a, b);
+      const double change =
+          d <= options.change_threshold ? options.small_change : options.large_change;
+      energy.pair.push_back(a == b ? 0.0 : options.smoothness * change);
+    }
+  }
+  for (const double share : candidates.share) {  // (14)
+    energy.label_cost.push_back(options.label_cost * (1.0 - share) * (1.0 - share));
+  }
+  return energy;
+}
+
+// Edges that no letter stands for get a wall id of their own, the same in all blocks of the type.
+void nameRemainingWalls(Floorplan& plan, int& next_id) {
+  const auto name = [&](FloorplanRing& ring) {
+    for (FloorplanEdge& edge : ring.edges) {
+      if (edge.wall < 0) edge.wall = next_id++;
+    }
+  };
+  for (FloorplanComponent& component : plan.components) {
+    name(component.outer);
+    for (FloorplanRing& hole : component.holes) name(hole);
+  }
+}
+
+}  // namespace
+
+DominantFloorplans selectDominantFloorplans(const std::vector<FloorplanLayer>& slices,
+                                            const DominantFloorplanOptions& options) {
+  DominantFloorplans result;
+  result.slice_types.assign(slices.size(), -1);
+  std::vector<std::size_t> valid;  // slice of each floorplan
+  std::vector<Floorplan> plans;
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    if (slices[i].plan.empty()) continue;
+    valid.push_back(i);
+    plans.push_back(slices[i].plan);
+  }
+  if (plans.empty()) return result;
+
+  FloorplanGrammar grammar;
+  grammar.setEncoding(options.encoding);
+  grammar.setLengthTolerance(options.length_tolerance);
+  grammar.encode(plans);
+  result.dictionary_size = grammar.getDictionarySize();
+  const Candidates candidates = findCandidates(grammar, plans.size());
+  result.num_candidates = static_cast<int>(candidates.representative.size());
+  const LayerEnergy energy = buildEnergy(grammar, candidates, plans.size(), options);
+  result.labeling = options.exact ? minimizeLayerEnergy(energy) : expandLayerLabels(energy);
+
+  std::map<int, int> type_of;  // label -> type, in order of height
+  std::vector<Floorplan> type_plans;
+  int next_wall = static_cast<int>(grammar.getDictionarySize());
+  for (std::size_t i = 0; i < plans.size(); ++i) {
+    const int label = result.labeling.labels[i];
+    if (type_of.emplace(label, static_cast<int>(type_of.size())).second) {
+      type_plans.push_back(
+          grammar.decode(candidates.representative[static_cast<std::size_t>(label)]));
+      nameRemainingWalls(type_plans.back(), next_wall);
+    }
+    const int type = type_of[label];
+    result.slice_types[valid[i]] = type;
+    const FloorplanLayer& slice = slices[valid[i]];
+    if (!result.types.empty() && result.types.back() == type) {
+      result.blocks.back().z_max = slice.z_max;
+      continue;
+    }
+    double z_min = slice.z_min;
+    if (!result.blocks.empty()) {
+      z_min = 0.5 * (result.blocks.back().z_max + slice.z_min);
+      result.blocks.back().z_max = z_min;
+    }
+    result.types.push_back(type);
+    result.blocks.push_back({z_min, slice.z_max, type_plans[static_cast<std::size_t>(type)]});
+  }
+  result.num_types = static_cast<int>(type_of.size());
+  return result;
+}
+
+}  // namespace storey

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl/console/print.h>
+#include <storey/surface/detail/edge_index.h>
+#include <storey/surface/floorplan_fitting.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace storey {
+namespace {
+
+constexpr int kRounds = 3;          // assignment and fit settle in two
+constexpr double kGate = 4.0;       // noise deviations: points further off are of another wall
+constexpr double kEndMargin = 3.0;  // noise deviations: at corners points mix
+constexpr double kTukey = 6.0;      // noise deviations
+constexpr double kMaxAngleDeviation = 0.01;  // rad; a wall that tells less keeps its direction
+constexpr double kSameDirection = 3.5;       // standard deviations
+constexpr double kMinTurn = 0.03;            // rad; lines that cross at less have no stable corner
+constexpr std::size_t kMinSupport = 8;       // points
+
+// A wall while it is fitted: its line, and the weighted moments of its points along (s) and across
+// (d) it, about the reference point.
+struct Wall {
+  Eigen::Vector2d reference;
+  Eigen::Vector2d normal;
+  double w = 0.0, s = 0.0, d = 0.0, ss = 0.0, sd = 0.0, dd = 0.0;
+  std::size_t support = 0;
+
+  Eigen::Vector2d tangent() const { return {-normal.y(), normal.x()}; }
+  double spread() const { return ss - s * s / w; }  // of the points along the wall
+  double residual(double slope) const {
+    const double mean = d / w;
+    const double variance = (dd - d * mean - slope * (sd - s * mean)) / w;
+    return std::sqrt(std::max(0.0, variance));
+  }
+  void clear() { w = s = d = ss = sd = dd = 0.0, support = 0; }
+  void add(const Eigen::Vector2d& point, double scale) {
+    const Eigen::Vector2d r = point - reference;
+    const double across = r.dot(normal);
+    const double along = r.dot(tangent());
+    const double u = across / scale;
+    if (std::abs(u) >= 1.0) return;
+    const double weight = (1.0 - u * u) * (1.0 - u * u);
+    w += weight;
+    s += weight * along;
+    d += weight * across;
+    ss += weight * along * along;
+    sd += weight * along * across;
+    dd += weight * across * across;
+    ++support;
+  }
+};
+
+using Walls = std::map<int, Wall>;
+
+// The lines as the layers have them: of each wall its longest edge.
+Walls wallsOf(const std::vector<FloorplanLayer>& layers) {
+  Walls walls;
+  std::map<int, double> longest;
+  for (const FloorplanLayer& layer : layers) {
+    for (const detail::WallStretch& stretch : detail::stretchesOf(layer.plan)) {
+      if (stretch.wall < 0 || stretch.length <= longest[stretch.wall]) continue;
+      longest[stretch.wall] = stretch.length;
+      Wall wall;
+      wall.reference = stretch.start + 0.5 * stretch.length * stretch.tangent;
+      wall.normal = stretch.normal();
+      walls[stretch.wall] = wall;
+    }
+  }
+  return walls;
+}
+
+void collectMoments(const std::vector<FloorplanLayer>& layers, const FitPoints& points,
+                    double noise, Walls& walls) {
+  for (auto& [id, wall] : walls) wall.clear();
+  std::vector<detail::EdgeIndex> indices;
+  for (const FloorplanLayer& layer : layers) {
+    indices.emplace_back(detail::stretchesOf(layer.plan), kGate * noise);
+  }
+  for (std::size_t i = 0; i < points.positions.size(); ++i) {
+    const Eigen::Vector3d p = points.positions[i].cast<double>();
+    const auto layer = std::upper_bound(
+        layers.begin(), layers.end(), p.z(),
+        [](double z, const FloorplanLayer& candidate) { return z < candidate.z_max; });
+    if (layer == layers.end() || p.z() < layer->z_min) continue;
+    const detail::EdgeIndex& index = indices[static_cast<std::size_t>(layer - layers.begin())];
+    const int edge =
+        index.nearest(p.head<2>(), points.normals[i].head<2>().cast<double>(), kEndMargin * noise);
+    if (edge < 0) continue;
+    const auto wall = walls.find(index[static_cast<std::size_t>(edge)].wall);
+    if (wall != walls.end()) wall->second.add(p.head<2>(), kTukey * noise);
+  }
+}
+
+void rotateTo(Wall& wall, double angle) { wall.normal = {std::cos(angle), std::sin(angle)}; }
+
+// Solves each wall: d = a + b s, or d = a where the points are too few to tell b.
+std::map<int, WallFit> solve(Walls& walls, double noise) {
+  std::map<int, WallFit> fits;
+  for (auto& [id, wall] : walls) {
+    WallFit fit;
+    fit.normal = wall.normal;
+    fit.offset = wall.normal.dot(wall.reference);
+    fit.angle_deviation = M_PI;
+    if (wall.support >= kMinSupport && wall.w > 0.0 && wall.spread() > 0.0) {
+      double slope = (wall.sd - wall.s * wall.d / wall.w) / wall.spread();
+      fit.support = wall.support;
+      fit.angle_deviation = std::max(wall.residual(slope), 0.1 * noise) / std::sqrt(wall.spread());
+      if (fit.angle_deviation > kMaxAngleDeviation) slope = 0.0;
+      fit.residual = wall.residual(slope);
+      const Eigen::Vector2d centre =
+          wall.reference + (wall.s / wall.w) * wall.tangent() + (wall.d / wall.w) * wall.normal;
+      fit.normal = (wall.normal - slope * wall.tangent()).normalized();
+      fit.offset = fit.normal.dot(centre);
+      wall.reference = centre;  // the line turns about the centre of its points
+      wall.normal = fit.normal;
+    }
+    fits[id] = fit;
+  }
+  return fits;
+}
+
+// Walls whose directions (modulo 180 degrees) agree share the weighted mean; each turns about the
+// centre of its points, so that its offset stays the least-squares one.
+void shareDirections(Walls& walls, std::map<int, WallFit>& fits) {
+  struct Direction {
+    double angle;
+    double deviation;
+    int wall;
+  };
+  std::vector<Direction> directions;
+  for (const auto& [id, fit] : fits) {
+    if (fit.support == 0 || fit.angle_deviation > kMaxAngleDeviation) continue;
+    double angle = std::atan2(fit.normal.y(), fit.normal.x());
+    if (angle < 0.0) angle += M_PI;
+    directions.push_back({angle, fit.angle_deviation, id});
+  }
+  if (directions.empty()) return;
+  std::sort(directions.begin(), directions.end(), [](const Direction& a, const Direction& b) {
+    return a.angle != b.angle ? a.angle < b.angle : a.wall < b.wall;
+  });
+  const auto agree = [](const Direction& a, const Direction& b, double turn) {
+    return turn <= kSameDirection * std::hypot(a.deviation, b.deviation);
+  };
+  // Cut the half circle open between two directions that differ, so that no group is split.
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const Direction& before = directions[(i + directions.size() - 1) % directions.size()];
+    const double turn = directions[i].angle - before.angle + (i == 0 ? M_PI : 0.0);
+    if (!agree(before, directions[i], turn)) {
+      first = i;
+      break;
+    }
+  }
+  std::rotate(directions.begin(), directions.begin() + static_cast<std::ptrdiff_t>(first),
+              directions.end());
+  for (std::size_t i = directions.size() - first; i < directions.size(); ++i) {
+    directions[i].angle += M_PI;
+  }
+  for (std::size_t begin = 0; begin < directions.size();) {
+    double weight = 0.0;
+    double sum = 0.0;
+    std::size_t end = begin;
+    for (; end < directions.size(); ++end) {
+      Direction group{weight > 0.0 ? sum / weight : 0.0,
+                      weight > 0.0 ? 1.0 / std::sqrt(weight) : 0.0, -1};
+      if (end > begin && !agree(group, directions[end], directions[end].angle - group.angle)) break;
+      const double w = 1.0 / (directions[end].deviation * directions[end].deviation);
+      weight += w;
+      sum += w * directions[end].angle;
+    }
+    for (; begin < end; ++begin) {
+      Wall& wall = walls.at(directions[begin].wall);
+      WallFit& fit = fits.at(directions[begin].wall);
+      const bool opposite =
+          fit.normal.dot(Eigen::Vector2d(std::cos(sum / weight), std::sin(sum / weight))) < 0.0;
+      rotateTo(wall, sum / weight + (opposite ? M_PI : 0.0));
+      fit.normal = wall.normal;
+      fit.offset = wall.normal.dot(wall.reference);
+      fit.angle_deviation = 1.0 / std::sqrt(weight);
+    }
+  }
+}
+
+// Corners to the intersections of the lines; false if an edge would turn around.
+bool moveCorners(FloorplanRing& ring, const std::map<int, WallFit>& fits) {
+  const std::size_t n = ring.size();
+  FloorplanRing moved = ring;
+  const auto line = [&](std::size_t i, Eigen::Vector2d& normal, double& offset) {
+    const auto fit = fits.find(ring.edges[i].wall);
+    if (fit != fits.end()) {
+      normal = fit->second.normal;
+      offset = fit->second.offset;
+      return;
+    }
+    const Eigen::Vector2d along = ring.vertices[(i + 1) % n] - ring.vertices[i];
+    normal = Eigen::Vector2d(along.y(), -along.x()).normalized();
+    offset = normal.dot(ring.vertices[i]);
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    Eigen::Vector2d n1, n2;
+    double d1 = 0.0, d2 = 0.0;
+    line((i + n - 1) % n, n1, d1);
+    line(i, n2, d2);
+    const double det = n1.x() * n2.y() - n1.y() * n2.x();
+    if (std::abs(det) < std::sin(kMinTurn)) return false;
+    moved.vertices[i] = {(d1 * n2.y() - d2 * n1.y()) / det, (n1.x() * d2 - n2.x() * d1) / det};
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    if ((moved.vertices[j] - moved.vertices[i]).dot(ring.vertices[j] - ring.vertices[i]) <= 0.0) {
+      return false;
+    }
+  }
+  ring = std::move(moved);
+  return true;
+}
+
+void moveOrRelease(FloorplanRing& ring, const std::map<int, WallFit>& fits) {
+  if (moveCorners(ring, fits)) return;
+  for (FloorplanEdge& edge : ring.edges) edge.wall = -1;
+}
+
+}  // namespace
+
+std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPoints& points,
+                                const FitOptions& options) {
+  if (!(options.noise > 0.0)) {
+    PCL_ERROR("[storey::fitWalls] noise is %g, expected > 0.\n", options.noise);
+    return {};
+  }
+  std::map<int, WallFit> fits;
+  for (int round = 0; round < kRounds; ++round) {
+    Walls walls = wallsOf(layers);
+    collectMoments(layers, points, options.noise, walls);
+    fits = solve(walls, options.noise);
+    if (options.share_directions) shareDirections(walls, fits);
+    for (FloorplanLayer& layer : layers) {
+      for (FloorplanComponent& component : layer.plan.components) {
+        moveOrRelease(component.outer, fits);
+        for (FloorplanRing& hole : component.holes) moveOrRelease(hole, fits);
+      }
+    }
+  }
+  return fits;
+}
+
+}  // namespace storey
