@@ -99,6 +99,8 @@ Json toJson(const synth::Evaluation& e) {
           {"surface_distance", toJson(e.surface)},
           {"iou", e.overlap.iou()},
           {"open_columns", e.overlap.open_columns},
+          {"valid", e.check.ok()},
+          {"problems", e.check.problems},
           {"model", toJson(e.model)},
           {"truth", toJson(e.truth)}};
 }
@@ -136,6 +138,10 @@ void print(const synth::Evaluation& e) {
               e.overlap.open_columns > 0 ? " (a mesh is not closed)" : "");
   printFacts("model", e.model);
   printFacts("truth", e.truth);
+  std::printf("checks %s\n", e.check.ok() ? "all passed" : "FAILED:");
+  for (const std::string& problem : e.check.problems) {
+    std::printf("       %s\n", problem.c_str());
+  }
 }
 
 void print(const synth::CloudEvaluation& e) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "synth/cloud_evaluation.h"
 
-#include <storey/surface/polyhedral_model.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -164,16 +162,6 @@ CloudEvaluation evaluateAgainstCloud(const io::PolygonSoup& model,
     evaluation.supported_area += supported[i];
   }
   return evaluation;
-}
-
-Vector3d upOfModel(const io::PolygonSoup& model) {
-  Vector3d sum = Vector3d::Zero();
-  for (const io::PolygonSoup::Polygon& polygon : model.polygons) {
-    if (polygon.label == static_cast<std::uint8_t>(FaceLabel::Roof)) {
-      sum += areaNormal(model, polygon);
-    }
-  }
-  return sum.norm() > 0.0 ? Vector3d(sum.normalized()) : Vector3d(Vector3d::UnitZ());
 }
 
 }  // namespace storey::synth

@@ -38,8 +38,4 @@ CloudEvaluation evaluateAgainstCloud(const io::PolygonSoup& model,
                                      const std::vector<OrientedPosition>& points,
                                      const Eigen::Vector3d& up, double sigma, double density);
 
-/// The mean normal of the model's faces labelled roof: the vertical that it was built with.
-/// +z if it has none.
-Eigen::Vector3d upOfModel(const io::PolygonSoup& model);
-
 }  // namespace storey::synth

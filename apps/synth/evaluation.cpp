@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "synth/polygon_mesh.h"
+#include "synth/rebuilt_model.h"
 #include "synth/triangle_tree.h"
 
 namespace storey::synth {
@@ -116,6 +117,7 @@ Evaluation evaluateModel(const io::PolygonSoup& model, const io::PolygonSoup& tr
   Evaluation evaluation;
   evaluation.model = factsOf(near_model, model_mesh);
   evaluation.truth = factsOf(near_truth, truth_mesh);
+  evaluation.check = checkModel(rebuildModel(near_model, model_mesh, upOfModel(near_model)));
   evaluation.vertex_to_truth = summarize(truth_tree.distances(model_mesh.vertices));
   evaluation.truth_to_model = summarize(model_tree.distances(truth_mesh.vertices));
   evaluation.corner_to_vertex =

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <storey/surface/model_check.h>
+
 #include <cstddef>
 #include <vector>
 
@@ -42,6 +44,8 @@ struct Evaluation {
   SolidOverlap overlap;
   MeshFacts model;
   MeshFacts truth;
+  ModelCheck check;  ///< of the model, rebuilt from its polygons (see rebuilt_model.h); the
+                     ///< vertical is that of the faces labelled roof, else +z
 };
 
 constexpr std::size_t kSurfaceSamples = 100000;  // of each surface: 95 % is good to 0.1 %

@@ -141,9 +141,9 @@ void mergeCoplanar(const io::PolygonSoup& soup, PolygonMesh& mesh) {
     for (std::size_t j = i + 1;
          j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high; ++j) {
       if (test.areOnePolygon(edges[i].polygon, edges[j].polygon)) {
-        const auto [low, high] =
-            std::minmax(rootOf(parents, edges[i].polygon), rootOf(parents, edges[j].polygon));
-        parents[std::size_t{high}] = low;
+        const std::size_t first = rootOf(parents, edges[i].polygon);
+        const std::size_t second = rootOf(parents, edges[j].polygon);
+        parents[std::max(first, second)] = std::min(first, second);
       }
     }
   }
@@ -185,6 +185,18 @@ Vector3d areaNormal(const io::PolygonSoup& soup, const Polygon& polygon) {
                .cross(vertexOf(soup, polygon.corners[k + 1]) - origin);
   }
   return sum;
+}
+
+Vector3d upOfModel(const io::PolygonSoup& soup) {
+  constexpr double kRounding = 1e-9;  // rad
+  Vector3d sum = Vector3d::Zero();
+  for (const Polygon& polygon : soup.polygons) {
+    if (polygon.label == static_cast<std::uint8_t>(FaceLabel::Roof)) {
+      sum += areaNormal(soup, polygon);
+    }
+  }
+  const bool is_tilted = sum.head<2>().norm() > kRounding * std::abs(sum.z()) || sum.z() < 0.0;
+  return is_tilted ? Vector3d(sum.normalized()) : Vector3d(Vector3d::UnitZ());
 }
 
 PolygonMesh measurable(const io::PolygonSoup& soup) {

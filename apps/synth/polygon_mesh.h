@@ -30,4 +30,8 @@ PolygonMesh measurable(const io::PolygonSoup& soup);
 /// (Newell). Correct for polygons that are not convex.
 Eigen::Vector3d areaNormal(const io::PolygonSoup& soup, const io::PolygonSoup::Polygon& polygon);
 
+/// The mean normal of the faces labelled roof: the vertical that the model was built with. Exactly
+/// +z if they differ from it by rounding only, or if there are none.
+Eigen::Vector3d upOfModel(const io::PolygonSoup& soup);
+
 }  // namespace storey::synth

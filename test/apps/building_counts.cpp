@@ -127,8 +127,9 @@ std::size_t countPolygons(const std::vector<FloorplanLayer>& layers) {
   for (std::size_t i = 0; i < layers.size(); ++i) {
     forEachEdge(layers[i], [&](const Vector2d& from, const Vector2d& to, int wall) {
       const Vector2d along = directions.emplace(wall, (to - from).normalized()).first->second;
-      const auto [start, end] = std::minmax(along.dot(from), along.dot(to));
-      walls[{wall, along.dot(to - from) > 0.0}].push_back({start, end, i});
+      const double start = along.dot(from);
+      const double end = along.dot(to);
+      walls[{wall, end > start}].push_back({std::min(start, end), std::max(start, end), i});
     });
   }
   std::size_t count = 0;

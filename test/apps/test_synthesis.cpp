@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
         Expected{"overhang", 2, 4, 10, 1, 22.0},
         // two walls go through, four do not; two strips of caps
         Expected{"shifted", 2, 4, 10, 1, 24.0}, Expected{"cylinder", 1, 64, 66, 1, 30.0}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& named) { return std::string(named.param.name); });
 
 TEST(Buildings, NamesOfThePaperHaveItsNumbersOfPoints) {
   EXPECT_EQ(makeBuilding("syn1").points, 933455u);
