@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-#include "point_types.h"
+#include "../point_types.h"
 
 namespace {
 
