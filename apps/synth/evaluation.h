@@ -34,7 +34,7 @@ struct MeshFacts {
 };
 
 /// A model against the truth. The paper's measure [Sui et al. 2016, Sec. 6.1, Table 2] is the
-/// first; it does not see what is missing [METHOD.md, "Where the paper is wrong" 7].
+/// first; it does not see what is missing [doc/method.md, deviation 7].
 struct Evaluation {
   DistanceSummary vertex_to_truth;   ///< every model vertex to the nearest true facet
   DistanceSummary truth_to_model;    ///< every true vertex to the nearest model facet

@@ -25,7 +25,7 @@ constexpr double kDefaultNormalAlpha = 0.1;    // [Sui et al. 2016, 3.2.1]
 /// With psi as a function of the normals, each pair's term has its maximum at 1 - a.b =
 /// (1 - cos sigma_n) / sqrt 2 (17 degrees), and (1) may rise a little while pairs further apart
 /// than that, at corners, are drawn together. \note Deviation: sigma_p is by default derived from
-/// the cloud instead of 0.1 of its units [METHOD.md, item 8].
+/// the cloud instead of 0.1 of its units [doc/method.md, deviation 8].
 ///
 /// The prior normals come through `setInputNormals`, parallel to the surface (default: the input);
 /// they need not be unit. `setKSearch` (counting the point itself; the paper has 30) or

@@ -19,7 +19,7 @@ struct VerticalQuality {
   bool one_wall_direction = false;  ///< all walls are parallel: only one angle comes from them
 };
 
-/// Finds the vertical of a building from its walls [Sui et al. 2016, 3.1; METHOD.md stage 1]:
+/// Finds the vertical of a building from its walls [Sui et al. 2016, 3.1; doc/method.md, stage 1]:
 /// 1. Start: `setInitialUp`; without it +z, unless fewer than 0.8 times as many normals agree with
 ///    it (within 12 degrees of horizontal or 26 of vertical) as lie within 6 degrees across the
 ///    best of 4000 evenly spread directions; then that direction.

@@ -63,7 +63,7 @@ class AnisotropicPositionRefinement : public pcl::Filter<PointT> {
 
   /// Spatial weight in the cloud's unit, >= 0; 0 (default) derives it: 5 standard deviations of the
   /// points along their normals, at least 2 spacings.
-  /// \note Deviation: the paper has 0.1, the noise of its own data [METHOD.md, item 8]. A wall
+  /// \note Deviation: the paper has 0.1, the noise of its own data [doc/method.md, deviation 8]. A wall
   /// shows its direction only over some five deviations.
   void setSigmaP(double sigma_p) { sigma_p_ = sigma_p; }
 

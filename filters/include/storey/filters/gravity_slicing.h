@@ -16,7 +16,7 @@ namespace storey {
 /// the attitude is adjusted before.
 ///
 /// \note Deviation: points of roofs, terraces and ground are left out by their normals, for on the
-/// horizontal plane they would fill the building's inside [METHOD.md, item 10].
+/// horizontal plane they would fill the building's inside [doc/method.md, deviation 10].
 ///
 /// Only the points of `setIndices` are seen. The slices lie between the 0.1 % and the 99.9 %
 /// quantile of z of the wall points, widened by 5 % of their distance on both sides (but not beyond

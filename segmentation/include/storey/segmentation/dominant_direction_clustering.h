@@ -28,7 +28,7 @@ namespace storey {
 /// around it: at corners averages lie between two directions, and would pull a plain mean.
 ///
 /// \note Deviation: horizontal normals only, on a histogram of bins of 0.1 degree: the same
-/// clusters up to the width of a bin in O(n) instead of O(n^2) [METHOD.md, "Dominant directions"].
+/// clusters up to the width of a bin in O(n) instead of O(n^2).
 /// \note Deviation: given the directions, a point belongs to the nearest of them (within 30
 /// degrees), not to the cluster whose merging it took part in.
 ///
@@ -48,7 +48,7 @@ class DominantDirectionClustering : public pcl::PCLBase<PointT> {
   using NormalsConstPtr = typename pcl::PointCloud<NormalT>::ConstPtr;
   using SearchPtr = typename pcl::search::Search<PointT>::Ptr;
 
-  static constexpr int kDefaultNeighbors = 30;  // 15 degrees of noise become 2 [LESSONS.md, 3]
+  static constexpr int kDefaultNeighbors = 30;  // 15 degrees of noise become 2
   static constexpr std::size_t kDefaultMaxSamples = 100000;
 
   /// Normals, one for each point of the input cloud (not of the indices). Null (default): the

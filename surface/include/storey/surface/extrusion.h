@@ -9,7 +9,7 @@
 namespace storey {
 
 /// The closed solid of a stack of floorplans: each layer's outline between its two heights, all
-/// of it on the integer lattice of spacing `grid` [METHOD.md, "Where the paper is wrong" 9].
+/// of it on the integer lattice of spacing `grid` [doc/method.md, deviation 9].
 ///
 /// All outlines are noded together into one arrangement, so that walls and caps of neighbouring
 /// layers use the same vertices; each (cell, layer) is inside or outside, and what lies between

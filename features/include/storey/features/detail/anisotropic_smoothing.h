@@ -9,8 +9,9 @@
 
 namespace storey::detail {
 
-/// exp(-x) for x >= 0, 0 from x = 87.7 on. Relative error below 1e-6. Plain float arithmetic
-/// without a branch: the compiler makes it four at a time, and the bytes are the same everywhere.
+/// exp(-x) for x >= 0, 0 from x = 87.7 on. Relative error below 1e-6 up to x = 4 and below 1e-5
+/// beyond, where x itself is rounded more coarsely. Plain float arithmetic without a branch: the
+/// compiler makes it four at a time, and the bytes are the same everywhere.
 inline float fastExpOfMinus(float x) {
   // 2^y = 2^i 2^f with |f| <= 1/2; adding and taking away kRound leaves the nearest integer.
   constexpr float kLog2E = 1.44269504f;
