@@ -39,10 +39,10 @@ class Builder {
     return labels_.solid(plan_.cell[at(half_edge)], slab);
   }
   int& wallDart(int half_edge, int slab) {
-    return wall_dart_[at(slab) * at(num_half_edges_) + at(half_edge)];
+    return wall_dart_[at(half_edge) * at(labels_.numSlabs()) + at(slab)];
   }
   int& capDart(int half_edge, int level) {
-    return cap_dart_[at(level) * at(num_half_edges_) + at(half_edge)];
+    return cap_dart_[at(half_edge) * at(labels_.numLevels()) + at(level)];
   }
   int cornerAt(int vertex, int level) const { return vertex * labels_.numLevels() + level; }
 
@@ -172,8 +172,8 @@ class Builder {
   const PlanArrangement& plan_;
   const SlabLabels& labels_;
   int num_half_edges_;
-  std::vector<int> wall_dart_;  // [slab][half-edge] -> first dart of the wall
-  std::vector<int> cap_dart_;   // [level][half-edge] -> dart of the cap on its left
+  std::vector<int> wall_dart_;  // [half-edge][slab] -> first dart of the wall
+  std::vector<int> cap_dart_;   // [half-edge][level] -> dart of the cap on its left
   BoundaryComplex result_;
 };
 

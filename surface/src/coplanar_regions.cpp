@@ -24,16 +24,20 @@ struct Candidate {
 class RegionFinder {
  public:
   RegionFinder(const PlanArrangement& plan, const BoundaryComplex& boundary,
-               const std::vector<FloorplanEdge>& sources, std::int64_t strip)
+               const std::vector<FloorplanEdge>& sources, std::int64_t strip,
+               const std::vector<char>& counts)
       : plan_(plan),
         boundary_(boundary),
         sources_(sources),
         strip_(strip),
+        counts_(counts),
         sets_(boundary.elements.size()),
         pieces_(boundary.elements.size()) {}
 
-  std::vector<int> find() {
+  std::vector<int> find(const std::vector<int>& known) {
     uniteExact();
+    uniteKnown(known);
+    collectPieces();
     uniteWalls();
     return number();
   }
@@ -49,11 +53,30 @@ class RegionFinder {
         sets_.unite(boundary_.element[d], boundary_.element[at(boundary_.twin[d])]);
       }
     }
-    for (int i = 0; i < static_cast<int>(boundary_.elements.size()); ++i) {
-      const Element& face = boundary_.elements[at(i)];
-      if (face.kind != ElementKind::Wall || sets_.find(i) != i) continue;
-      pieces_[at(i)] = {{plan_.from(face.plan), plan_.to(face.plan)}};
+  }
+
+  void uniteKnown(const std::vector<int>& known) {
+    std::vector<int> first(known.size(), -1);  // by region
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      int& face = first[at(known[i])];
+      if (face < 0) face = static_cast<int>(i);
+      sets_.unite(face, static_cast<int>(i));
     }
+  }
+
+  void collectPieces() {
+    for (std::size_t i = 0; i < boundary_.elements.size(); ++i) {
+      const Element& face = boundary_.elements[i];
+      if (face.kind == ElementKind::Wall) {
+        pieces_[at(sets_.find(static_cast<int>(i)))].push_back(face.plan);
+      }
+    }
+    for (std::vector<int>& pieces : pieces_) sortUnique(pieces);
+  }
+
+  static void sortUnique(std::vector<int>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
   }
 
   void uniteWalls() {
@@ -61,10 +84,9 @@ class RegionFinder {
       const int a = sets_.find(c.a);
       const int b = sets_.find(c.b);
       if (a == b) continue;
-      std::vector<GridSegment> both = pieces_[at(a)];
+      std::vector<int> both = pieces_[at(a)];
       both.insert(both.end(), pieces_[at(b)].begin(), pieces_[at(b)].end());
-      std::sort(both.begin(), both.end());
-      both.erase(std::unique(both.begin(), both.end()), both.end());
+      sortUnique(both);
       if (!isStraight(both)) continue;
       sets_.unite(a, b);
       pieces_[at(sets_.find(a))] = std::move(both);
@@ -73,19 +95,23 @@ class RegionFinder {
 
   // Within the strip, one piece after the other along it: neither turning back nor two ways side
   // by side at different heights.
-  bool isStraight(const std::vector<GridSegment>& pieces) const {
+  bool isStraight(const std::vector<int>& pieces) const {
     std::vector<GridPoint> points;
+    std::vector<GridPoint> counting;
     GridPoint sum;
-    for (const GridSegment& piece : pieces) {
-      points.insert(points.end(), {piece.first, piece.second});
-      sum = sum + (piece.second - piece.first);
+    for (const int h : pieces) {
+      sum = sum + (plan_.to(h) - plan_.from(h));
+      for (const int v : {plan_.origin[at(h)], plan_.target(h)}) {
+        points.push_back(plan_.vertices[at(v)]);
+        if (counts_[at(v)] != 0) counting.push_back(points.back());
+      }
     }
-    if (!withinStrip(points, strip_)) return false;
+    if (!withinStrip(counting, strip_)) return false;
     const auto [from, to] = findChord(points);
     const GridPoint chord = dot(to - from, sum) > 0 ? to - from : from - to;
     std::vector<std::pair<std::int64_t, std::int64_t>> spans;
-    for (const GridSegment& piece : pieces) {
-      spans.emplace_back(dot(chord, piece.first), dot(chord, piece.second));
+    for (const int h : pieces) {
+      spans.emplace_back(dot(chord, plan_.from(h)), dot(chord, plan_.to(h)));
       if (spans.back().second <= spans.back().first) return false;
     }
     std::sort(spans.begin(), spans.end());
@@ -125,16 +151,18 @@ class RegionFinder {
   const BoundaryComplex& boundary_;
   const std::vector<FloorplanEdge>& sources_;
   std::int64_t strip_;
+  const std::vector<char>& counts_;
   UnionFind sets_;
-  std::vector<std::vector<GridSegment>> pieces_;  // of a region of walls, at its representative
+  std::vector<std::vector<int>> pieces_;  // half-edges of a region of walls, at its representative
 };
 
 }  // namespace
 
 std::vector<int> findCoplanarRegions(const PlanArrangement& plan, const BoundaryComplex& boundary,
-                                     const std::vector<FloorplanEdge>& sources,
-                                     std::int64_t strip) {
-  return RegionFinder(plan, boundary, sources, strip).find();
+                                     const std::vector<FloorplanEdge>& sources, std::int64_t strip,
+                                     const std::vector<int>& known,
+                                     const std::vector<char>& counts) {
+  return RegionFinder(plan, boundary, sources, strip, counts).find(known);
 }
 
 }  // namespace detail

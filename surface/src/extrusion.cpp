@@ -5,6 +5,7 @@
 #include <storey/surface/detail/plugs.h>
 #include <storey/surface/detail/slab_labels.h>
 #include <storey/surface/extrusion.h>
+#include <storey/surface/model_check.h>
 
 #include <string>
 
@@ -77,8 +78,13 @@ PolyhedralModel extrudeFloorplans(const std::vector<FloorplanLayer>& layers, dou
   if (!solid.boundary.elements.empty()) {
     const std::vector<FloorplanEdge> sources =
         detail::findSources(solid.plan, solid.labels, solid.boundary, rounded);
-    PolyhedralModel model = detail::mergeFaces(solid.plan, solid.labels, solid.boundary, sources,
-                                               lattice, detail::kPlanarStrip);
+    const auto merge = [&](std::int64_t strip) {
+      return detail::mergeFaces(solid.plan, solid.labels, solid.boundary, sources, lattice, strip);
+    };
+    PolyhedralModel model = merge(detail::kPlanarStrip);
+    // Walls that are planar only within the rounding can get in each other's way where the grid is
+    // coarse against the details. Exactly planar ones cannot.
+    if (!checkModel(model).ok()) model = merge(0);
     model.storeys = layers;
     return model;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 
 namespace storey {
@@ -33,11 +34,17 @@ class FaceMerger {
         boundary_(boundary),
         sources_(sources),
         lattice_(lattice),
-        region_(findCoplanarRegions(plan, boundary, sources, strip)),
+        strip_(strip),
         kept_(boundary.umbrella_corner.size(), 0),
         corner_kept_(plan.vertices.size() * at(labels.numLevels()), 0) {}
 
   PolyhedralModel merge() {
+    std::vector<char> counts(plan_.vertices.size(), 1);
+    region_ = findCoplanarRegions(plan_, boundary_, sources_, strip_, {}, counts);
+    keepCorners();
+    // Once more: what is exactly coplanar but for the corners that went.
+    for (std::size_t v = 0; v < counts.size(); ++v) counts[v] = vertexKept(v);
+    region_ = findCoplanarRegions(plan_, boundary_, sources_, 0, region_, counts);
     keepCorners();
     collectFacts();
     traceRings();
@@ -66,6 +73,8 @@ class FaceMerger {
 
   // Where two polygons meet in a line nothing is lost without the corner.
   void keepCorners() {
+    std::fill(kept_.begin(), kept_.end(), 0);
+    std::fill(corner_kept_.begin(), corner_kept_.end(), 0);
     std::vector<int> borders(kept_.size(), 0);
     for (int d = 0; d < static_cast<int>(boundary_.numDarts()); ++d) {
       if (onBorder(d)) ++borders[at(boundary_.umbrella[at(d)])];
@@ -73,6 +82,13 @@ class FaceMerger {
     for (std::size_t u = 0; u < kept_.size(); ++u) {
       if (borders[u] > 2) keep(static_cast<int>(u));
     }
+  }
+
+  // At any level.
+  char vertexKept(std::size_t vertex) const {
+    const auto first =
+        corner_kept_.begin() + static_cast<std::ptrdiff_t>(vertex * at(labels_.numLevels()));
+    return std::find(first, first + labels_.numLevels(), 1) != first + labels_.numLevels();
   }
 
   void keep(int umbrella) {
@@ -195,20 +211,24 @@ class FaceMerger {
     return !straight && (touched || !chordIsFree(run, a, b));
   }
 
-  // Whether no other vertex of the plan is within a unit of the chord of a run.
+  // Whether no other vertex of the plan is where the run moves, or within a unit of it.
   bool chordIsFree(const Ring& run, const GridPoint& a, const GridPoint& b) const {
     std::vector<GridPoint> own;
     for (const int u : run) own.push_back(plan(cornerOf(u)));
+    std::int64_t deviation = 0;
+    for (const GridPoint& p : own) deviation = std::max(deviation, std::abs(orient(a, b, p)));
+    const double length = std::sqrt(static_cast<double>(dot(b - a, b - a)));
+    const double reach = static_cast<double>(deviation) + length;  // times the length
+    const auto margin = static_cast<std::int64_t>(reach / length) + 1;
     std::sort(own.begin(), own.end());
     const auto [low, high] = std::minmax({a.x, b.x});
     const auto [bottom, top] = std::minmax({a.y, b.y});
-    const Wide length = dot(b - a, b - a);
     auto it = std::lower_bound(plan_.vertices.begin(), plan_.vertices.end(),
-                               GridPoint{low - 1, bottom - 1});
-    for (; it != plan_.vertices.end() && it->x <= high + 1; ++it) {
-      if (it->y < bottom - 1 || it->y > top + 1) continue;
-      const Wide area = orient(a, b, *it);
-      if (area * area <= length && !std::binary_search(own.begin(), own.end(), *it)) return false;
+                               GridPoint{low - margin, bottom - margin});
+    for (; it != plan_.vertices.end() && it->x <= high + margin; ++it) {
+      if (it->y < bottom - margin || it->y > top + margin) continue;
+      const auto distance = static_cast<double>(std::abs(orient(a, b, *it)));
+      if (distance <= reach && !std::binary_search(own.begin(), own.end(), *it)) return false;
     }
     return true;
   }
@@ -220,24 +240,36 @@ class FaceMerger {
     }
   }
 
-  // In the plane of the face, seen from outside; for walls scaled by the length of an edge.
+  // Along a wall, to the right seen from outside.
+  GridPoint alongWall(const RegionFacts& facts) const {
+    std::vector<GridPoint> points;
+    for (const Ring& ring : facts.rings) {
+      for (const int u : ring) points.push_back(plan(cornerOf(u)));
+    }
+    const auto [from, to] = findChord(points);
+    const int h = boundary_.elements[at(facts.first)].plan;
+    return dot(to - from, plan_.to(h) - plan_.from(h)) > 0 ? to - from : from - to;
+  }
+
+  // In the plane of the face, seen from outside; for walls scaled by the length of the chord.
   Wide twiceArea(const Ring& ring, const RegionFacts& facts) const {
-    const Element& first = boundary_.elements[at(facts.first)];
-    const GridPoint along = first.kind == ElementKind::Wall
-                                ? plan_.to(first.plan) - plan_.from(first.plan)
-                                : GridPoint{};
+    const ElementKind kind = boundary_.elements[at(facts.first)].kind;
+    const GridPoint along = kind == ElementKind::Wall ? alongWall(facts) : GridPoint{};
+    const GridPoint& start = plan(cornerOf(ring.front()));
     Wide sum = 0;
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const int a = cornerOf(ring[i]);
       const int b = cornerOf(ring[(i + 1) % ring.size()]);
-      if (first.kind == ElementKind::Wall) {
-        sum += static_cast<Wide>(dot(along, plan(a))) * labels_.levels[at(level(b))] -
-               static_cast<Wide>(dot(along, plan(b))) * labels_.levels[at(level(a))];
+      const GridPoint p = plan(a) - start;
+      const GridPoint q = plan(b) - start;
+      if (kind == ElementKind::Wall) {
+        sum += static_cast<Wide>(dot(along, p)) * labels_.levels[at(level(b))] -
+               static_cast<Wide>(dot(along, q)) * labels_.levels[at(level(a))];
       } else {
-        sum += cross(plan(a), plan(b));
+        sum += cross(p, q);
       }
     }
-    return first.kind == ElementKind::CapDown ? -sum : sum;
+    return kind == ElementKind::CapDown ? -sum : sum;
   }
 
   PolyhedralFace makeFace(const RegionFacts& facts) const {
@@ -311,6 +343,7 @@ class FaceMerger {
   const BoundaryComplex& boundary_;
   const std::vector<FloorplanEdge>& sources_;
   const Lattice& lattice_;
+  std::int64_t strip_;
   std::vector<int> region_;         // elementary face -> region
   std::vector<char> kept_;          // umbrella -> becomes a vertex
   std::vector<char> corner_kept_;   // corner -> one of its umbrellas does

@@ -149,13 +149,10 @@ std::vector<FlatRing> flattenFace(const PolyhedralModel& model, const Polyhedral
   indices.insert(indices.end(), face.inner.begin(), face.inner.end());
   std::vector<std::vector<LatticePoint>> points;
   if (!readPoints(model, indices, points)) return {};
-  bool cap = true;
+  const bool cap = face.label != FaceLabel::Wall;
   std::vector<GridPoint> plan;
   for (const std::vector<LatticePoint>& ring : points) {
-    for (const LatticePoint& p : ring) {
-      cap = cap && p[2] == 0;
-      plan.push_back({p[0], p[1]});
-    }
+    for (const LatticePoint& p : ring) plan.push_back({p[0], p[1]});
   }
   const auto [from, to] = findChord(plan);
   const GridPoint chord = to - from;

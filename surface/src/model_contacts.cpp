@@ -60,7 +60,7 @@ class ContactChecker {
     std::sort(order.begin(), order.end(),
               [&](int a, int b) { return point(a) < point(b) || (point(a) == point(b) && a < b); });
     for (const auto& [a, b] : edges_) {
-      if (a > b) continue;
+      if (a > b && edges_.count({b, a}) != 0) continue;  // once for both senses
       const auto [x_min, x_max] = std::minmax(point(a)[0], point(b)[0]);
       auto it = std::lower_bound(order.begin(), order.end(), x_min,
                                  [&](int v, std::int64_t x) { return point(v)[0] < x; });

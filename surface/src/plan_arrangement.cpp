@@ -117,9 +117,9 @@ std::vector<GridPoint> verticesOn(const GridSegment& s, const std::vector<GridPo
   std::vector<GridPoint> on;
   const GridPoint d = s.second - s.first;
   const auto [bottom, top] = std::minmax({s.first.y, s.second.y});
-  auto it = std::upper_bound(vertices.begin(), vertices.end(), s.first);
-  for (; it != vertices.end() && *it < s.second; ++it) {
-    if (it->y < bottom || it->y > top) continue;
+  auto it = std::lower_bound(vertices.begin(), vertices.end(), GridPoint{s.first.x, bottom});
+  for (; it != vertices.end() && it->x <= s.second.x; ++it) {
+    if (it->y < bottom || it->y > top || *it == s.first || *it == s.second) continue;
     const Wide area = orient(s.first, s.second, *it);
     if (4 * area * area < dot(d, d)) on.push_back(*it);
   }
