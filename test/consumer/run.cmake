@@ -1,0 +1,26 @@
+# Installs the build tree to a fresh prefix, builds a user's project against it, and runs it; then
+# compares its example with README.md.
+# cmake -DBUILD=... -DSOURCE=... -DWORK=... -P run.cmake
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "failed (${status}): ${ARGN}\n${output}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+run(${CMAKE_COMMAND} -S ${SOURCE}/test/consumer -B ${WORK}/build -G Ninja
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=${FLAGS} -Dstorey_ROOT=${WORK}/prefix)
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/build/readme_example)
+run(${WORK}/build/foreign_point)
+
+file(READ ${SOURCE}/test/consumer/readme_example.cpp example)
+string(REGEX MATCH "// README begin\n(.*)// README end" found "${example}")
+set(example "${CMAKE_MATCH_1}")
+file(READ ${SOURCE}/README.md readme)
+string(FIND "${readme}" "```cpp\n${example}```" position)
+if(position EQUAL -1)
+  message(FATAL_ERROR "the example of README.md is not the one that was compiled")
+endif()
