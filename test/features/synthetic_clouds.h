@@ -83,6 +83,17 @@ typename pcl::PointCloud<PointT>::Ptr sampled(const std::vector<Panel>& panels, 
   return cloud;
 }
 
+// A flattened slice of a square building: four lines of points, all with z = 0.
+template <typename PointT>
+typename pcl::PointCloud<PointT>::Ptr flattenedSlice(int n, const Noise& noise) {
+  auto cloud = sampled<PointT>(wallsOf(rectangle(0, 0, 26, 26), 0, 1), n, noise);
+  for (PointT& p : *cloud) {
+    p.z = 0.0f;
+    p.curvature = 0.25f;
+  }
+  return cloud;
+}
+
 template <typename PointT>
 typename pcl::PointCloud<PointT>::Ptr transformed(
     const pcl::PointCloud<PointT>& cloud, const Eigen::Matrix3d& rotation,
