@@ -18,12 +18,13 @@ using namespace storey;
 using namespace storey::test;
 
 std::string problemsOf(const ModelCheck& check) {
-  std::string all;
-  for (const std::string& p : check.problems) all += p + "\n";
-  return all;
+  const auto append = [](std::string all, const std::string& p) {
+    return std::move(all) + p + "\n";
+  };
+  return std::accumulate(check.problems.begin(), check.problems.end(), std::string(), append);
 }
 
-// Sum of area times height of the layers: the truth, by the shoelace formula.
+// The truth, by the shoelace formula.
 double layerVolume(const std::vector<FloorplanLayer>& layers) {
   double sum = 0.0;
   for (const FloorplanLayer& layer : layers) sum += area(layer.plan) * (layer.z_max - layer.z_min);
@@ -342,7 +343,6 @@ TEST(Extrusion, RandomStacksOfCells) {
   }
 }
 
-// Random stars, one a layer: walls that cross at any angle.
 TEST(Extrusion, RandomStacksOfStars) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);
@@ -356,7 +356,6 @@ TEST(Extrusion, RandomStacksOfStars) {
   }
 }
 
-// The same building anywhere, turned by any angle, in any unit.
 TEST(Extrusion, MovedTurnedAndScaled) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     for (const double scale : {1e-3, 1.0, 1e3}) {

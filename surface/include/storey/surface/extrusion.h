@@ -15,14 +15,18 @@ namespace storey {
 /// layers use the same vertices; each (cell, layer) is inside or outside, and what lies between
 /// the two is the surface. It is therefore closed whatever the outlines are; rings are read by the
 /// even-odd rule, layers that overlap in height are united, gaps between layers stay gaps.
-/// Vertices and heights move by at most one grid unit; vertices closer than one unit to an edge
-/// are put on it. Coplanar neighbours (within one unit of a common line) are one face.
+/// Vertices and heights move by about one grid unit at most: vertices closer than one unit to an
+/// edge are put on it, cells narrower than two units go with a neighbour. Coplanar neighbours are
+/// one face; walls count as coplanar if a strip of two units holds them. If walls merged so get in
+/// each other's way (`checkModel` objects) only exactly coplanar ones are merged.
 /// Layers thinner than the grid after rounding vanish.
 ///
 /// Parts that touch only along an edge or at a point become separate shells. Where a part touches
-/// *itself* that way (no 2-manifold in space) a small plug fills the contact: a diamond of
-/// extent / 4096 (at most 256 units, smaller next to short edges), over one layer's height; its
-/// walls are marked hypothetical. `PolyhedralModel::storeys` keeps the layers as given.
+/// *itself* that way (no 2-manifold in space) a small plug fills the contact: a diamond of half
+/// diagonal extent / 4096 (4 to 256 grid units, a third of a short edge there) over one layer's
+/// height, along a horizontal contact a bar; its walls are marked hypothetical. What is still in
+/// contact after three rounds is filled by whole cells. `PolyhedralModel::storeys` keeps the layers
+/// as given.
 ///
 /// A face down is `Ground` where a whole connected part of a layer stands on nothing and nothing
 /// of the building is below it, else `Ceiling`. A wall face takes the wall id, and whether it is
