@@ -13,7 +13,7 @@ constexpr double kGate = 4.0;        // noise deviations across the wall
 constexpr double kEndMargin = 3.0;   // noise deviations inside the ends of a stretch
 constexpr double kMinStretch = 6.0;  // noise deviations: shorter ends of walls tell nothing
 constexpr double kReference = 30.0;  // noise deviations of height that give the density
-constexpr double kOutliers = 0.002;  // density off the wall, of that on it
+constexpr double kOutliers = 0.0005;  // density off the wall, of that on it
 constexpr double kMinLayer = 3.0;    // noise deviations
 constexpr std::size_t kMinPoints = 20;
 
