@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The clouds of the stages, coloured by what the stage found out.
+#include <algorithm>
+#include <cmath>
+
+#include "io/failure.h"
+#include "view/palette.h"
+#include "view/stages.h"
+
+namespace storey::view::detail {
+namespace {
+
+constexpr std::size_t kBarColours = 128;
+constexpr std::size_t kMaxLegendEntries = 24;  // more do not fit beside the picture
+
+// Label of point i less 1, or none.
+std::optional<std::size_t> labelOf(const StageCloud& cloud, std::size_t i) {
+  if (!(cloud.values[i] >= 1.0)) return std::nullopt;
+  return static_cast<std::size_t>(cloud.values[i]) - 1;
+}
+
+std::size_t countLabelled(const StageCloud& cloud) {
+  std::size_t count = 0;
+  for (const double value : cloud.values) count += value >= 1.0 ? 1 : 0;
+  return count;
+}
+
+void addSequentialBar(Drawing& drawing, const std::string& title, double high) {
+  drawing.bar = {title, sequentialColours(kBarColours), roundTicks(0.0, high)};
+}
+
+std::string azimuthText(double degrees) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f\u00b0", degrees);
+  return text;
+}
+
+}  // namespace
+
+Drawing drawConfidence(const Reconstruction& r) {
+  const StageCloud cloud = readStageCloud(r.file("02_confidence.pcd"), "intensity");
+  Drawing drawing;
+  drawing.title = "Planar confidence";
+  addCloud(drawing, cloud, [&](std::size_t i) { return sequentialColour(cloud.values[i]); });
+  addSequentialBar(drawing, "planar confidence", 1.0);
+  drawing.legend_title = "kept above " + shortNumber(r.report().planar_threshold);
+  return drawing;
+}
+
+Drawing drawDirections(const Reconstruction& r, Stage stage) {
+  const std::size_t n = r.report().azimuths.size();
+  const bool labels = stage == Stage::Labels;
+  const StageCloud cloud = r.readLabels(filesOf(stage).front(), n);
+  Drawing drawing;
+  drawing.title = labels ? "Directions after labelling in the slices" : "Dominant directions";
+  addCloud(drawing, cloud, [&](std::size_t i) {
+    const std::optional<std::size_t> label = labelOf(cloud, i);
+    return label ? distinctColour(*label, n) : kNoLabel;
+  });
+  std::vector<std::size_t> count(n, 0);
+  for (std::size_t i = 0; i < cloud.values.size(); ++i) {
+    if (const auto label = labelOf(cloud, i)) ++count[*label];
+  }
+  drawing.legend_title = "azimuth: points";
+  for (std::size_t k = 0; k < std::min(n, kMaxLegendEntries); ++k) {
+    drawing.legend.push_back({distinctColour(k, n), azimuthText(r.report().azimuths[k]) + ": " +
+                                                        std::to_string(count[k])});
+  }
+  if (n > kMaxLegendEntries) drawing.subtitle += ", " + std::to_string(n) + " directions";
+  drawing.legend.push_back(
+      {kNoLabel, "none: " + std::to_string(cloud.values.size() - countLabelled(cloud))});
+  return drawing;
+}
+
+Drawing drawSlices(const Reconstruction& r) {
+  const std::size_t n = r.report().num_slices;
+  const StageCloud cloud = r.readLabels("04_slices.pcd", n);
+  Drawing drawing;
+  drawing.title = "Slices";
+  addCloud(drawing, cloud, [&](std::size_t i) {
+    const std::optional<std::size_t> slice = labelOf(cloud, i);
+    return slice ? sliceColour(*slice) : kNoLabel;
+  });
+  drawing.subtitle += ", slices " + shortNumber(r.report().slice_thickness) + " thick";
+  drawing.bar.title = "slice";
+  for (std::size_t k = 0; k < n; ++k) drawing.bar.colours.push_back(sliceColour(k));
+  if (n > 0) {
+    const auto slices = static_cast<double>(n);
+    for (Tick& tick : drawing.bar.ticks = roundTicks(0.0, std::max(slices - 1.0, 0.5))) {
+      tick.at = (tick.at * std::max(slices - 1.0, 0.5) + 0.5) / slices;  // mid-height of its band
+    }
+  }
+  drawing.legend.push_back({kNoLabel, "in no slice"});
+  return drawing;
+}
+
+Drawing drawNormals(const Reconstruction& r) {
+  const StageCloud cloud = readStageCloud(r.file("05_normals.pcd"), "");
+  const auto colour = [](double turns) { return fromHsv(turns, 0.8, 0.85); };
+  Drawing drawing;
+  drawing.title = "Smoothed normals";
+  addCloud(drawing, cloud, [&](std::size_t i) {
+    const Eigen::Vector3d normal = cloud.normals[i].cast<double>();
+    if (!normal.allFinite() || normal.isZero()) return kNoLabel;
+    return colour(std::atan2(normal.y(), normal.x()) / (2.0 * M_PI));
+  });
+  drawing.bar.title = "azimuth of the normal";
+  for (std::size_t i = 0; i < kBarColours; ++i) {
+    drawing.bar.colours.push_back(
+        colour((static_cast<double>(i) + 0.5) / static_cast<double>(kBarColours) - 0.5));
+  }
+  for (const int degrees : {-180, -90, 0, 90, 180}) {
+    drawing.bar.ticks.push_back({(degrees + 180) / 360.0, std::to_string(degrees) + "\u00b0"});
+  }
+  return drawing;
+}
+
+Drawing drawRegions(const Reconstruction& r) {
+  const StageCloud cloud = r.readLabels("08_regions.pcd", 0);
+  constexpr std::size_t kColours = 12;
+  constexpr std::size_t kStep = 5;  // regions come slice by slice: neighbours far apart in hue
+  Drawing drawing;
+  drawing.title = "Edge regions";
+  addCloud(drawing, cloud, [&](std::size_t i) {
+    const std::optional<std::size_t> region = labelOf(cloud, i);
+    return region ? distinctColour(*region * kStep % kColours, kColours) : kNoLabel;
+  });
+  double num_regions = 0.0;
+  for (const double label : cloud.values) num_regions = std::max(num_regions, label);
+  drawing.subtitle += ", " + counted(static_cast<std::size_t>(num_regions), "region");
+  drawing.legend_title = "colours tell regions apart";
+  drawing.legend.push_back(
+      {kNoLabel, "in none: " + std::to_string(cloud.values.size() - countLabelled(cloud))});
+  return drawing;
+}
+
+Drawing drawRefined(const Reconstruction& r) {
+  const StageCloud before = readStageCloud(r.file("05_normals.pcd"), "");
+  const StageCloud after = readStageCloud(r.file("07_refined.pcd"), "");
+  if (before.positions.size() != after.positions.size()) {
+    throw io::Failure(io::BadInput, r.file("07_refined.pcd"),
+                      "has not as many points as 05_normals.pcd", "run storey_reconstruct again");
+  }
+  std::vector<double> moved;
+  for (std::size_t i = 0; i < after.positions.size(); ++i) {
+    moved.push_back(static_cast<double>((after.positions[i] - before.positions[i]).norm()));
+  }
+  // The bar ends where all but few points do: a single one that went far would hide the others.
+  std::vector<double> sorted = moved;
+  std::sort(sorted.begin(), sorted.end());
+  const double q99 = sorted.empty() ? 0.0 : sorted[sorted.size() * 99 / 100];
+  const double high = q99 > 0.0 ? q99 : 1.0;
+  Drawing drawing;
+  drawing.title = "Refined positions";
+  addCloud(drawing, after, [&](std::size_t i) { return sequentialColour(moved[i] / high); });
+  addSequentialBar(drawing, "moved by (length)", high);
+  drawing.legend_title = "99 % moved less than " + shortNumber(high);
+  return drawing;
+}
+
+}  // namespace storey::view::detail

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The model alone, and over the cloud.
+#include <storey/surface/triangulation.h>
+
+#include <algorithm>
+#include <map>
+
+#include "io/failure.h"
+#include "view/palette.h"
+#include "view/stages.h"
+
+namespace storey::view::detail {
+namespace {
+
+constexpr Colour kHypothetical{190, 70, 190};
+constexpr Colour kCloud{70, 85, 105};
+constexpr std::size_t kOverlayPoints = 60000;  // few enough to see the model through them
+
+Colour baseColour(const PolyhedralFace& face) {
+  if (face.hypothetical) return kHypothetical;
+  switch (face.label) {
+    case FaceLabel::Roof:
+      return {196, 84, 66};
+    case FaceLabel::Ground:
+      return {130, 130, 130};
+    case FaceLabel::Ceiling:
+      return {80, 140, 190};
+    default:
+      return {225, 200, 155};
+  }
+}
+
+// Newell's formula: twice the vector area of the ring.
+Eigen::Vector3d normalOf(const PolyhedralModel& model, const PolyhedralFace& face) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const auto at = [&](std::size_t i) -> const Eigen::Vector3d& {
+    return model.vertices[static_cast<std::size_t>(face.outer[i % face.outer.size()])];
+  };
+  for (std::size_t i = 0; i < face.outer.size(); ++i) {
+    sum += (at(i) - at(0)).cross(at(i + 1) - at(0));
+  }
+  return sum.normalized();
+}
+
+// A fixed light, so that a wall looks the same from every side: from the south-south-east, high.
+Colour shaded(Colour colour, const Eigen::Vector3d& normal) {
+  constexpr double kAmbient = 0.62;
+  const Eigen::Vector3d to_light = Eigen::Vector3d(0.35, -0.75, 1.1).normalized();
+  const double light =
+      std::min(1.0, kAmbient + (1.0 - kAmbient) * 1.2 * std::max(0.0, normal.dot(to_light)));
+  const auto dim = [&](std::uint8_t c) { return static_cast<std::uint8_t>(light * c); };
+  return {dim(colour.r), dim(colour.g), dim(colour.b)};
+}
+
+FacetSet facetsOf(const Reconstruction& r, const PolyhedralModel& model) {
+  FacetSet facets;
+  facets.vertices = model.vertices;
+  for (std::size_t f = 0; f < model.faces.size(); ++f) {
+    const PolyhedralFace& face = model.faces[f];
+    const Colour colour = shaded(baseColour(face), normalOf(model, face));
+    const auto triangles = triangulateFace(model, face);
+    if (triangles.empty()) {
+      throw io::Failure(io::BadInput, r.file("model.ply"),
+                        "its polygon " + std::to_string(f) + " is not a simple one in a plane",
+                        "run storey_reconstruct again");
+    }
+    facets.triangles.insert(facets.triangles.end(), triangles.begin(), triangles.end());
+    facets.colours.insert(facets.colours.end(), triangles.size(), colour);
+  }
+  return facets;
+}
+
+// The edges of the model's faces. Polygons that a face with holes was cut into lie in one plane:
+// what parts them is no edge of the model.
+LineSet edgesOf(const PolyhedralModel& model) {
+  constexpr double kSamePlane = 1.0 - 1e-9;  // cosine; neighbours of the model itself never meet it
+  std::vector<Eigen::Vector3d> normals;
+  for (const PolyhedralFace& face : model.faces) normals.push_back(normalOf(model, face));
+  std::map<std::pair<int, int>, std::vector<std::size_t>> faces_at;
+  for (std::size_t f = 0; f < model.faces.size(); ++f) {
+    const std::vector<int>& ring = model.faces[f].outer;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      faces_at[std::minmax(ring[i], ring[(i + 1) % ring.size()])].push_back(f);
+    }
+  }
+  LineSet edges;
+  edges.width = 2.0;
+  for (const auto& [ends, faces] : faces_at) {
+    if (faces.size() == 2 && normals[faces[0]].dot(normals[faces[1]]) > kSamePlane) continue;
+    edges.lines.push_back({model.vertices[static_cast<std::size_t>(ends.first)],
+                           model.vertices[static_cast<std::size_t>(ends.second)]});
+    edges.colours.push_back(kDark);
+  }
+  return edges;
+}
+
+void addModel(Drawing& drawing, const Reconstruction& r, double opacity) {
+  const PolyhedralModel model = r.readModel();
+  drawing.facets.push_back(facetsOf(r, model));
+  drawing.facets.back().opacity = opacity;
+  drawing.lines.push_back(edgesOf(model));
+  constexpr const char* kNames[] = {"wall", "roof", "ground", "ceiling"};
+  for (int label = 0; label < 4; ++label) {
+    PolyhedralFace example;
+    example.label = static_cast<FaceLabel>(label);
+    const auto count = std::count_if(
+        model.faces.begin(), model.faces.end(),
+        [&](const PolyhedralFace& f) { return f.label == example.label && !f.hypothetical; });
+    drawing.legend.push_back(
+        {baseColour(example), std::string(kNames[label]) + ": " + std::to_string(count)});
+  }
+  const auto count = std::count_if(model.faces.begin(), model.faces.end(),
+                                   [](const PolyhedralFace& f) { return f.hypothetical; });
+  drawing.legend.push_back({kHypothetical, "wall not seen: " + std::to_string(count)});
+  drawing.legend_title = "polygons";
+  const auto shells = static_cast<std::size_t>(model.num_shells);
+  drawing.subtitle = counted(model.faces.size(), "polygon") + ", " + counted(shells, "shell") +
+                     (r.report().inside ? ", a space seen from inside" : "");
+}
+
+}  // namespace
+
+Drawing drawModel(const Reconstruction& r) {
+  Drawing drawing;
+  drawing.title = "Model";
+  addModel(drawing, r, 1.0);
+  return drawing;
+}
+
+Drawing drawOverlay(const Reconstruction& r) {
+  const StageCloud cloud = readStageCloud(r.file("01_upright.pcd"), "");
+  Drawing drawing;
+  drawing.title = "Model over the cloud";
+  addModel(drawing, r, 0.45);
+  PointSet set;
+  set.size = 1.5;
+  for (const std::size_t i : evenlySpaced(cloud.positions.size(), kOverlayPoints)) {
+    set.positions.push_back(cloud.positions[i]);
+    set.colours.push_back(kCloud);
+  }
+  drawing.subtitle += ", " + std::to_string(set.positions.size()) + " of " +
+                      counted(cloud.positions.size(), "point");
+  drawing.points.push_back(std::move(set));
+  drawing.legend.push_back({kCloud, "points"});
+  return drawing;
+}
+
+}  // namespace storey::view::detail

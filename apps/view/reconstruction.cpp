@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "view/reconstruction.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "io/failure.h"
+#include "io/input_file.h"
+#include "io/model_io.h"
+
+namespace storey::view {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::uint64_t kMaxJsonBytes = std::uint64_t{1} << 28;  // a report has kilobytes
+constexpr std::size_t kMaxSlices = 1000000;  // as many colours are made for the picture of slices
+
+// Reads a JSON file and takes from it what `extract` wants; whatever is not there is a Failure.
+template <typename Extract>
+void readJson(const std::string& path, const Extract& extract) {
+  io::InputFile file(path, kMaxJsonBytes);
+  const auto size = static_cast<std::size_t>(file.size());
+  try {
+    const unsigned char* const text = file.take(size);
+    extract(Json::parse(text, text + size));
+  } catch (const Json::exception& error) {
+    file.fail("is not what storey_reconstruct writes: " + std::string(error.what()),
+              "run storey_reconstruct again");
+  }
+}
+
+Eigen::Vector3d toVector(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+Report toReport(const Json& json) {
+  Report report;
+  const std::string input = json.at("input").at("file").get<std::string>();
+  report.input = std::filesystem::path(input).filename().string();
+  report.inside = json.at("space").at("side").get<std::string>() == "inside";
+  report.planar_threshold = json.at("planar").at("T_k").get<double>();
+  for (const Json& direction : json.at("directions")) {
+    report.azimuths.push_back(direction.at("azimuth_deg").get<double>());
+    report.direction_points.push_back(direction.at("points").get<std::size_t>());
+  }
+  report.slice_thickness = json.at("slices").at("thickness").get<double>();
+  report.num_slices = json.at("slices").at("count").get<std::size_t>();
+  report.grid = json.at("model").at("grid").get<double>();
+  report.offset = toVector(json.at("input").at("offset"));
+  return report;
+}
+
+// Takes the local frame to the input's: floorplans.geojson has the rotation (none if z was kept
+// as the vertical), the report the offset.
+Eigen::Isometry3d localToInput(const std::string& floorplans, const Eigen::Vector3d& offset) {
+  Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
+  readJson(floorplans, [&](const Json& json) {
+    const Json& rows = json.at("frame_to_input");
+    for (int row = 0; row < 3; ++row) {
+      transform.linear().row(row) = toVector(rows.at(static_cast<std::size_t>(row)));
+    }
+  });
+  transform.translation() = offset;
+  return transform;
+}
+
+PolyhedralModel toModel(const io::PolygonSoup& soup, double grid) {
+  PolyhedralModel model;
+  model.grid = grid;
+  model.vertices = soup.vertices;
+  for (const io::PolygonSoup::Polygon& polygon : soup.polygons) {
+    PolyhedralFace face;
+    face.outer = polygon.corners;
+    face.label = static_cast<FaceLabel>(polygon.label);
+    face.wall = polygon.wall;
+    face.shell = polygon.shell;
+    face.hypothetical = polygon.hypothetical;
+    model.faces.push_back(std::move(face));
+    model.num_shells = std::max(model.num_shells, polygon.shell + 1);
+  }
+  return model;
+}
+
+}  // namespace
+
+Reconstruction::Reconstruction(const std::string& directory) : directory_(directory) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(directory, error)) {
+    throw io::Failure(io::MissingInput, directory, "is not a directory",
+                      "give the output directory of storey_reconstruct");
+  }
+  if (!has("report.json")) {
+    throw io::Failure(io::MissingInput, directory, "has no report.json",
+                      "give the output directory of storey_reconstruct");
+  }
+  readJson(file("report.json"), [&](const Json& json) { report_ = toReport(json); });
+  if (report_.num_slices > kMaxSlices) {
+    throw io::Failure(io::BadInput, file("report.json"),
+                      "counts " + std::to_string(report_.num_slices) + " slices",
+                      "run storey_reconstruct again");
+  }
+}
+
+bool Reconstruction::has(const std::string& name) const {
+  std::error_code error;
+  return std::filesystem::exists(file(name), error);
+}
+
+StageCloud Reconstruction::readLabels(const std::string& name, std::size_t num_labels) const {
+  StageCloud cloud = readStageCloud(file(name), "label");
+  const auto largest = std::max_element(cloud.values.begin(), cloud.values.end());
+  if (num_labels > 0 && largest != cloud.values.end() &&
+      *largest > static_cast<double>(num_labels)) {
+    throw io::Failure(io::BadInput, file(name),
+                      "has labels above the " + std::to_string(num_labels) + " of report.json",
+                      "run storey_reconstruct again");
+  }
+  return cloud;
+}
+
+PolyhedralModel Reconstruction::readModel() const {
+  io::PolygonSoup soup = io::readPolygons(file("model.ply"));
+  const Eigen::Isometry3d to_local =
+      localToInput(file("floorplans.geojson"), report_.offset).inverse();
+  for (Eigen::Vector3d& vertex : soup.vertices) vertex = to_local * vertex;
+  return toModel(soup, report_.grid);
+}
+
+}  // namespace storey::view

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <storey/surface/polyhedral_model.h>
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "view/stage_files.h"
+
+namespace storey::view {
+
+/// What report.json tells of a run, as far as pictures need it.
+struct Report {
+  std::string input;              ///< name of the cloud without its folders
+  bool inside = false;            ///< the model is a space seen from inside
+  double planar_threshold = 0.0;  ///< T_k, within [0, 1]
+  std::vector<double> azimuths;   ///< of the dominant directions, degrees from +x to +y
+  std::vector<std::size_t> direction_points;
+  double slice_thickness = 0.0;  ///< length
+  std::size_t num_slices = 0;
+  double grid = 0.0;                                 ///< unit of the model's coordinates, length
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of the local frame, in the input's
+};
+
+/// The files in a directory that storey_reconstruct wrote. All are read as untrusted.
+class Reconstruction {
+ public:
+  /// Reads the report, without which a run did not come to its end.
+  /// \throws io::Failure (BadInput, MissingInput, IoError), as all the others do
+  explicit Reconstruction(const std::string& directory);
+
+  const Report& report() const { return report_; }
+  std::string file(const std::string& name) const { return directory_ + "/" + name; }
+  bool has(const std::string& name) const;
+
+  /// \param num_labels labels above this are refused; 0: any number
+  StageCloud readLabels(const std::string& name, std::size_t num_labels) const;
+  /// The faces of the model in the upright local frame.
+  PolyhedralModel readModel() const;
+
+ private:
+  std::string directory_;
+  Report report_;
+};
+
+}  // namespace storey::view

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "view/drawing.h"
+#include "view/options.h"
+#include "view/reconstruction.h"
+
+namespace storey::view {
+
+constexpr std::size_t kMaxDrawnPoints = 300000;  // of a cloud; more only hide each other
+
+/// The files that a stage is drawn from, besides report.json.
+std::vector<std::string> filesOf(Stage stage);
+
+/// What there is to see of a stage. The slice is for `Stage::Slice`, none: the one nearest the
+/// middle that has a floorplan.
+/// \throws io::Failure (BadInput, MissingInput, IoError)
+Drawing makeDrawing(const Reconstruction& reconstruction, Stage stage, View view,
+                    std::optional<int> slice);
+
+/// min(n, at_most) of the numbers 0 .. n - 1 at even distances, ascending.
+std::vector<std::size_t> evenlySpaced(std::size_t n, std::size_t at_most);
+
+namespace detail {
+
+// The parts of `makeDrawing`, by what they draw. View and, but of a plan, subtitle are set after.
+Drawing drawConfidence(const Reconstruction& reconstruction);
+Drawing drawDirections(const Reconstruction& reconstruction, Stage stage);
+Drawing drawSlices(const Reconstruction& reconstruction);
+Drawing drawNormals(const Reconstruction& reconstruction);
+Drawing drawRegions(const Reconstruction& reconstruction);
+Drawing drawRefined(const Reconstruction& reconstruction);
+Drawing drawFloorplans(const Reconstruction& reconstruction);
+Drawing drawModel(const Reconstruction& reconstruction);
+Drawing drawOverlay(const Reconstruction& reconstruction);
+Drawing drawSlice(const Reconstruction& reconstruction, std::optional<int> slice);
+
+/// The number with three significant digits.
+std::string shortNumber(double value);
+
+/// A count and its noun: "1 point", "5 points".
+std::string counted(std::size_t count, const std::string& noun);
+
+/// Ticks at round values of a bar that goes from `low` to `high`; needs low < high.
+std::vector<Tick> roundTicks(double low, double high);
+
+/// A thinned cloud; colour(i) is that of point i. Sets the subtitle.
+template <typename ColourOf>
+void addCloud(Drawing& drawing, const StageCloud& cloud, const ColourOf& colour) {
+  const std::size_t n = cloud.positions.size();
+  PointSet set;
+  for (const std::size_t i : evenlySpaced(n, kMaxDrawnPoints)) {
+    set.positions.push_back(cloud.positions[i]);
+    set.colours.push_back(colour(i));
+  }
+  drawing.subtitle = counted(n, "point");
+  if (set.positions.size() < n) {
+    drawing.subtitle += ", " + std::to_string(set.positions.size()) + " drawn";
+  }
+  drawing.points.push_back(std::move(set));
+}
+
+}  // namespace detail
+}  // namespace storey::view
