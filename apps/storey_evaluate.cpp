@@ -16,6 +16,7 @@
 #include "io/model_io.h"
 #include "synth/cloud_evaluation.h"
 #include "synth/evaluation.h"
+#include "synth/polygon_mesh.h"
 
 namespace {
 

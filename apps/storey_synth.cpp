@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,9 @@ struct Request {
 
 template <typename T>
 options::typed_value<T>* into(T& value) {
-  return options::value<T>(&value)->default_value(value);
+  std::ostringstream text;  // 0.1, where the library would print 0.10000000000000001
+  text << value;
+  return options::value<T>(&value)->default_value(value, text.str());
 }
 
 options::options_description mainOptions(Request& r) {

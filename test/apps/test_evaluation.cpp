@@ -77,8 +77,7 @@ TEST(Evaluation, AShiftedBox) {
   EXPECT_NEAR(e.truth_to_model.mean, 0.5 * d, 1e-12);
   EXPECT_NEAR(e.corner_to_vertex.mean, d, 1e-12);
   EXPECT_NEAR(e.corner_to_vertex.deviation, 0.0, 1e-12);
-  // A column's place is random in a cell of 20.5 / 1024: sides across x are found to within the
-  // deviation cell / sqrt(12 x 1024) in each of their mean places.
+  // 2 x 1024 cells across x are cut at random places: 20.5 / 1024 / sqrt(12 x 1024) = 2e-4 of 20.
   EXPECT_NEAR(e.overlap.iou(), (20.0 - d) / (20.0 + d), 1e-4);
   const double across = 14.0 * 24.0;
   const double other = 20.0 * 14.0 + 20.0 * 24.0;
@@ -159,8 +158,7 @@ TEST(PolygonMesh, CutModelsHaveTheirPolygonsBack) {
   }
 }
 
-/// The decagon's area is 10 a^2 tan 18 deg for the apothem a; the crown has the slice that its
-/// moved edge lost, and the corner, taken off: measured with the shoelace formula.
+/// A layer's volume is its floorplan's area times its height.
 TEST(Evaluation, VolumesOfColumnsAreThoseOfTheFloorplans) {
   for (const char* name : {"syn1", "syn2", "courtyard", "random:3"}) {
     const auto layers = storey::synth::makeBuilding(name).layers;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <storey/surface/extrusion.h>
+#include <storey/surface/model_check.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -85,7 +86,9 @@ TEST(RandomBuildings, AreValidAndOfManyKinds) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const std::vector<FloorplanLayer> layers = storey::synth::randomBuilding(seed);
     ASSERT_EQ(whyInvalid(layers), "") << seed;
-    EXPECT_EQ(storey::extrudeFloorplans(layers).faces.size(), countPolygons(layers)) << seed;
+    const storey::PolyhedralModel model = storey::extrudeFloorplans(layers);
+    EXPECT_EQ(model.faces.size(), countPolygons(layers)) << seed;
+    EXPECT_TRUE(checkModel(model).ok()) << seed;
     ++types[layers.size()];
     std::size_t most = 0;
     bool courtyard = false;
