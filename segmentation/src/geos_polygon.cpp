@@ -3,16 +3,13 @@
 
 namespace storey::detail {
 
-GeosGeometry makeLinearRing(const GeosContext& context,
-                            const std::vector<Eigen::Vector2d>& vertices) {
-  const auto n = static_cast<unsigned>(vertices.size());
-  GEOSCoordSequence* sequence = GEOSCoordSeq_create_r(context.get(), n + 1, 2);
+GeosGeometry makeLine(const GeosContext& context, const Eigen::Vector2d& from,
+                      const Eigen::Vector2d& to) {
+  GEOSCoordSequence* sequence = GEOSCoordSeq_create_r(context.get(), 2, 2);
   if (sequence == nullptr) return own(context, nullptr);
-  for (unsigned i = 0; i <= n; ++i) {
-    const Eigen::Vector2d& v = vertices[i % n];
-    GEOSCoordSeq_setXY_r(context.get(), sequence, i, v.x(), v.y());
-  }
-  return own(context, GEOSGeom_createLinearRing_r(context.get(), sequence));
+  GEOSCoordSeq_setXY_r(context.get(), sequence, 0, from.x(), from.y());
+  GEOSCoordSeq_setXY_r(context.get(), sequence, 1, to.x(), to.y());
+  return own(context, GEOSGeom_createLineString_r(context.get(), sequence));
 }
 
 std::vector<Eigen::Vector2d> ringVertices(const GeosContext& context, const GEOSGeometry* ring) {

@@ -33,9 +33,9 @@ inline GeosGeometry own(const GeosContext& context, GEOSGeometry* geometry) {
   return {geometry, GeosGeometryDeleter{context.get()}};
 }
 
-/// The ring as a linear ring; null if it cannot be one.
-GeosGeometry makeLinearRing(const GeosContext& context,
-                            const std::vector<Eigen::Vector2d>& vertices);
+/// A line of two points; null if it cannot be one.
+GeosGeometry makeLine(const GeosContext& context, const Eigen::Vector2d& from,
+                      const Eigen::Vector2d& to);
 
 /// Vertices of a linear ring, the closing one left out.
 std::vector<Eigen::Vector2d> ringVertices(const GeosContext& context, const GEOSGeometry* ring);

@@ -54,9 +54,12 @@ std::vector<int> linkSegments(const std::vector<LineSegment>& segments,
 /// elimination. Empty if fewer than three edges remain. It may still cross itself.
 FloorplanRing closeRing(const std::vector<LineSegment>& cycle, const LinkingOptions& options);
 
-/// The region with positive winding number: rings are united if counter-clockwise and cut out if
-/// clockwise. Result is valid: simple rings, disjoint components, holes inside. Parts smaller than
-/// `min_area` are dropped. Edges keep their attributes where an input edge lies along them.
+/// The region that the rings together wind around counter-clockwise (winding number > 0): a
+/// clockwise ring cuts a courtyard out, another one inside it is an island, and the lobe of a
+/// self-crossing ring that runs backwards is outside. The result is valid: simple rings without
+/// collinear vertices, disjoint components, holes inside; largest component first. Components and
+/// holes with less than `min_area` are dropped. An edge has the attributes of the input edge that
+/// lies along the longest part of it.
 Floorplan assembleFloorplan(const std::vector<FloorplanRing>& rings, double min_area);
 
 }  // namespace storey::detail
