@@ -31,29 +31,30 @@ void addSequentialBar(Drawing& drawing, const std::string& title, double high) {
 
 std::string azimuthText(double degrees) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.1f\u00b0", degrees);
+  // Rounded first, and 0 added: "-0.0" would look like a direction of its own.
+  std::snprintf(text, sizeof text, "%.1f\u00b0", std::round(10.0 * degrees) / 10.0 + 0.0);
   return text;
 }
 
 }  // namespace
 
-Drawing drawConfidence(const Reconstruction& r) {
+Drawing drawConfidence(const Reconstruction& r, View view) {
   const StageCloud cloud = readStageCloud(r.file("02_confidence.pcd"), "intensity");
   Drawing drawing;
   drawing.title = "Planar confidence";
-  addCloud(drawing, cloud, [&](std::size_t i) { return sequentialColour(cloud.values[i]); });
+  addCloud(drawing, cloud, view, [&](std::size_t i) { return sequentialColour(cloud.values[i]); });
   addSequentialBar(drawing, "planar confidence", 1.0);
   drawing.legend_title = "kept above " + shortNumber(r.report().planar_threshold);
   return drawing;
 }
 
-Drawing drawDirections(const Reconstruction& r, Stage stage) {
+Drawing drawDirections(const Reconstruction& r, Stage stage, View view) {
   const std::size_t n = r.report().azimuths.size();
   const bool labels = stage == Stage::Labels;
   const StageCloud cloud = r.readLabels(filesOf(stage).front(), n);
   Drawing drawing;
   drawing.title = labels ? "Directions after labelling in the slices" : "Dominant directions";
-  addCloud(drawing, cloud, [&](std::size_t i) {
+  addCloud(drawing, cloud, view, [&](std::size_t i) {
     const std::optional<std::size_t> label = labelOf(cloud, i);
     return label ? distinctColour(*label, n) : kNoLabel;
   });
@@ -72,34 +73,34 @@ Drawing drawDirections(const Reconstruction& r, Stage stage) {
   return drawing;
 }
 
-Drawing drawSlices(const Reconstruction& r) {
+Drawing drawSlices(const Reconstruction& r, View view) {
   const std::size_t n = r.report().num_slices;
   const StageCloud cloud = r.readLabels("04_slices.pcd", n);
   Drawing drawing;
   drawing.title = "Slices";
-  addCloud(drawing, cloud, [&](std::size_t i) {
+  addCloud(drawing, cloud, view, [&](std::size_t i) {
     const std::optional<std::size_t> slice = labelOf(cloud, i);
     return slice ? sliceColour(*slice) : kNoLabel;
   });
   drawing.subtitle += ", slices " + shortNumber(r.report().slice_thickness) + " thick";
   drawing.bar.title = "slice";
   for (std::size_t k = 0; k < n; ++k) drawing.bar.colours.push_back(sliceColour(k));
-  if (n > 0) {
-    const auto slices = static_cast<double>(n);
-    for (Tick& tick : drawing.bar.ticks = roundTicks(0.0, std::max(slices - 1.0, 0.5))) {
-      tick.at = (tick.at * std::max(slices - 1.0, 0.5) + 0.5) / slices;  // mid-height of its band
-    }
+  const double quarter = std::max(1.0, static_cast<double>(n) / 4.0);
+  const auto step = static_cast<std::size_t>(roundLength(quarter));
+  for (std::size_t k = 0; k < n; k += step) {  // at mid-height of its band
+    const double at = (static_cast<double>(k) + 0.5) / static_cast<double>(n);
+    drawing.bar.ticks.push_back({at, std::to_string(k)});
   }
   drawing.legend.push_back({kNoLabel, "in no slice"});
   return drawing;
 }
 
-Drawing drawNormals(const Reconstruction& r) {
+Drawing drawNormals(const Reconstruction& r, View view) {
   const StageCloud cloud = readStageCloud(r.file("05_normals.pcd"), "");
   const auto colour = [](double turns) { return fromHsv(turns, 0.8, 0.85); };
   Drawing drawing;
   drawing.title = "Smoothed normals";
-  addCloud(drawing, cloud, [&](std::size_t i) {
+  addCloud(drawing, cloud, view, [&](std::size_t i) {
     const Eigen::Vector3d normal = cloud.normals[i].cast<double>();
     if (!normal.allFinite() || normal.isZero()) return kNoLabel;
     return colour(std::atan2(normal.y(), normal.x()) / (2.0 * M_PI));
@@ -115,13 +116,13 @@ Drawing drawNormals(const Reconstruction& r) {
   return drawing;
 }
 
-Drawing drawRegions(const Reconstruction& r) {
+Drawing drawRegions(const Reconstruction& r, View view) {
   const StageCloud cloud = r.readLabels("08_regions.pcd", 0);
   constexpr std::size_t kColours = 12;
   constexpr std::size_t kStep = 5;  // regions come slice by slice: neighbours far apart in hue
   Drawing drawing;
   drawing.title = "Edge regions";
-  addCloud(drawing, cloud, [&](std::size_t i) {
+  addCloud(drawing, cloud, view, [&](std::size_t i) {
     const std::optional<std::size_t> region = labelOf(cloud, i);
     return region ? distinctColour(*region * kStep % kColours, kColours) : kNoLabel;
   });
@@ -134,7 +135,7 @@ Drawing drawRegions(const Reconstruction& r) {
   return drawing;
 }
 
-Drawing drawRefined(const Reconstruction& r) {
+Drawing drawRefined(const Reconstruction& r, View view) {
   const StageCloud before = readStageCloud(r.file("05_normals.pcd"), "");
   const StageCloud after = readStageCloud(r.file("07_refined.pcd"), "");
   if (before.positions.size() != after.positions.size()) {
@@ -152,7 +153,7 @@ Drawing drawRefined(const Reconstruction& r) {
   const double high = q99 > 0.0 ? q99 : 1.0;
   Drawing drawing;
   drawing.title = "Refined positions";
-  addCloud(drawing, after, [&](std::size_t i) { return sequentialColour(moved[i] / high); });
+  addCloud(drawing, after, view, [&](std::size_t i) { return sequentialColour(moved[i] / high); });
   addSequentialBar(drawing, "moved by (length)", high);
   drawing.legend_title = "99 % moved less than " + shortNumber(high);
   return drawing;

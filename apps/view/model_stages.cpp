@@ -13,7 +13,7 @@ namespace storey::view::detail {
 namespace {
 
 constexpr Colour kHypothetical{190, 70, 190};
-constexpr Colour kCloud{70, 85, 105};
+constexpr Colour kCloud{40, 55, 85};
 constexpr std::size_t kOverlayPoints = 60000;  // few enough to see the model through them
 
 Colour baseColour(const PolyhedralFace& face) {
@@ -52,12 +52,31 @@ Colour shaded(Colour colour, const Eigen::Vector3d& normal) {
   return {dim(colour.r), dim(colour.g), dim(colour.b)};
 }
 
+// Roofs of different heights must differ also where they are seen from above.
+Colour raised(Colour colour, double share_of_height) {
+  constexpr double kMost = 0.35;  // of the way to white, at the top
+  const auto raise = [&](std::uint8_t c) {
+    return static_cast<std::uint8_t>(c + kMost * share_of_height * (255 - c));
+  };
+  return {raise(colour.r), raise(colour.g), raise(colour.b)};
+}
+
 FacetSet facetsOf(const Reconstruction& r, const PolyhedralModel& model) {
   FacetSet facets;
   facets.vertices = model.vertices;
+  const auto lower = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return a.z() < b.z();
+  };
+  const auto [lowest, highest] =
+      std::minmax_element(model.vertices.begin(), model.vertices.end(), lower);
+  const double height = highest->z() - lowest->z();
   for (std::size_t f = 0; f < model.faces.size(); ++f) {
     const PolyhedralFace& face = model.faces[f];
-    const Colour colour = shaded(baseColour(face), normalOf(model, face));
+    Colour colour = shaded(baseColour(face), normalOf(model, face));
+    if (face.label == FaceLabel::Roof && height > 0.0) {
+      const double z = model.vertices[static_cast<std::size_t>(face.outer.front())].z();
+      colour = raised(colour, (z - lowest->z()) / height);
+    }
     const auto triangles = triangulateFace(model, face);
     if (triangles.empty()) {
       throw io::Failure(io::BadInput, r.file("model.ply"),
@@ -112,7 +131,7 @@ void addModel(Drawing& drawing, const Reconstruction& r, double opacity) {
   const auto count = std::count_if(model.faces.begin(), model.faces.end(),
                                    [](const PolyhedralFace& f) { return f.hypothetical; });
   drawing.legend.push_back({kHypothetical, "wall not seen: " + std::to_string(count)});
-  drawing.legend_title = "polygons";
+  drawing.legend_title = "polygons (higher roofs paler)";
   const auto shells = static_cast<std::size_t>(model.num_shells);
   drawing.subtitle = counted(model.faces.size(), "polygon") + ", " + counted(shells, "shell") +
                      (r.report().inside ? ", a space seen from inside" : "");
@@ -131,7 +150,7 @@ Drawing drawOverlay(const Reconstruction& r) {
   const StageCloud cloud = readStageCloud(r.file("01_upright.pcd"), "");
   Drawing drawing;
   drawing.title = "Model over the cloud";
-  addModel(drawing, r, 0.45);
+  addModel(drawing, r, 0.4);
   PointSet set;
   set.size = 1.5;
   for (const std::size_t i : evenlySpaced(cloud.positions.size(), kOverlayPoints)) {

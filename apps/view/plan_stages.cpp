@@ -18,9 +18,9 @@ constexpr std::size_t kMaxSticks = 400;
 constexpr double kStickShare = 0.03;  // length of a normal's stick over the extent of the slice
 
 constexpr Colour kProjected{160, 190, 225};
-constexpr Colour kRefined{25, 70, 150};
+constexpr Colour kRefined{20, 40, 110};
 constexpr Colour kStick{90, 160, 90};
-constexpr Colour kFloorplan{215, 40, 40};
+constexpr Colour kFloorplan{245, 150, 130};
 
 // A slice in the clouds of the stages: the height of its points in the cloud, and which points of
 // 05_normals.pcd and 07_refined.pcd are its own. Those clouds hold one slice after the other.
@@ -132,15 +132,15 @@ void layOver(Drawing& drawing, const StageCloud& before, const StageCloud& after
   const double extent = extentOf(drawing.points.front());
   const double step = 1e-3 * extent;
   drawing.lines.push_back(normalSticks(before, slice, kStickShare * extent, step));
-  drawing.points.push_back(flatPoints(after, slice, kRefined, 3.0, static_cast<float>(2.0 * step)));
   LineSet lines;
-  lines.width = 3.0;
+  lines.width = 6.0;
   for (auto& line : floorplan) {
-    for (Eigen::Vector3d& p : line) p.z() = 3.0 * step;
+    for (Eigen::Vector3d& p : line) p.z() = 2.0 * step;
     lines.lines.push_back(std::move(line));
     lines.colours.push_back(kFloorplan);
   }
   drawing.lines.push_back(std::move(lines));
+  drawing.points.push_back(flatPoints(after, slice, kRefined, 2.5, static_cast<float>(3.0 * step)));
 }
 
 }  // namespace
@@ -194,15 +194,15 @@ Drawing drawSlice(const Reconstruction& r, std::optional<int> wanted) {
   Lines floorplan = linesOf(lines, slice, thickness);
   const std::size_t num_rings = floorplan.size();
   Drawing drawing;
-  drawing.title = "Slice " + std::to_string(chosen) + " of 0 to " +
-                  std::to_string(slices.size() - 1) + " in plan";
+  drawing.title = "Slice " + std::to_string(chosen) + " in plan (0 to " +
+                  std::to_string(slices.size() - 1) + ")";
   drawing.subtitle = counted(slice.count, "point") + ", " + shortNumber(thickness) + " thick";
   if (slice.count > 0) drawing.subtitle += ", around z = " + shortNumber(slice.middle());
   layOver(drawing, before, after, std::move(floorplan), slice);
   drawing.legend = {{kProjected, "points as projected"},
-                    {kStick, "smoothed normals (some)"},
-                    {kRefined, "refined points"},
-                    {kFloorplan, num_rings > 0 ? "floorplan" : "floorplan: none found"}};
+                    {kStick, "normals, of some"},
+                    {kFloorplan, num_rings > 0 ? "floorplan" : "floorplan: none found"},
+                    {kRefined, "refined points"}};
   return drawing;
 }
 

@@ -7,6 +7,7 @@
 
 #include "io/failure.h"
 #include "io/input_file.h"
+#include "io/limits.h"
 #include "io/model_io.h"
 
 namespace storey::view {
@@ -43,7 +44,6 @@ Report toReport(const Json& json) {
   report.planar_threshold = json.at("planar").at("T_k").get<double>();
   for (const Json& direction : json.at("directions")) {
     report.azimuths.push_back(direction.at("azimuth_deg").get<double>());
-    report.direction_points.push_back(direction.at("points").get<std::size_t>());
   }
   report.slice_thickness = json.at("slices").at("thickness").get<double>();
   report.num_slices = json.at("slices").at("count").get<std::size_t>();
@@ -110,11 +110,11 @@ bool Reconstruction::has(const std::string& name) const {
 
 StageCloud Reconstruction::readLabels(const std::string& name, std::size_t num_labels) const {
   StageCloud cloud = readStageCloud(file(name), "label");
-  const auto largest = std::max_element(cloud.values.begin(), cloud.values.end());
-  if (num_labels > 0 && largest != cloud.values.end() &&
-      *largest > static_cast<double>(num_labels)) {
-    throw io::Failure(io::BadInput, file(name),
-                      "has labels above the " + std::to_string(num_labels) + " of report.json",
+  const double limit =
+      static_cast<double>(num_labels > 0 ? num_labels : std::size_t{io::kMaxPoints});
+  const auto bad = [&](double label) { return !(label >= 0.0 && label <= limit); };
+  if (std::any_of(cloud.values.begin(), cloud.values.end(), bad)) {
+    throw io::Failure(io::BadInput, file(name), "has labels that report.json does not know",
                       "run storey_reconstruct again");
   }
   return cloud;

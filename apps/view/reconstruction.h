@@ -18,8 +18,7 @@ struct Report {
   bool inside = false;            ///< the model is a space seen from inside
   double planar_threshold = 0.0;  ///< T_k, within [0, 1]
   std::vector<double> azimuths;   ///< of the dominant directions, degrees from +x to +y
-  std::vector<std::size_t> direction_points;
-  double slice_thickness = 0.0;  ///< length
+  double slice_thickness = 0.0;   ///< length
   std::size_t num_slices = 0;
   double grid = 0.0;                                 ///< unit of the model's coordinates, length
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of the local frame, in the input's
@@ -36,7 +35,8 @@ class Reconstruction {
   std::string file(const std::string& name) const { return directory_ + "/" + name; }
   bool has(const std::string& name) const;
 
-  /// \param num_labels labels above this are refused; 0: any number
+  /// A cloud with labels from 0 to `num_labels`; others are refused.
+  /// \param num_labels 0: any number
   StageCloud readLabels(const std::string& name, std::size_t num_labels) const;
   /// The faces of the model in the upright local frame.
   PolyhedralModel readModel() const;

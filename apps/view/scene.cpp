@@ -43,7 +43,7 @@ vtkNew<vtkUnsignedCharArray> toVtk(const std::vector<Colour>& colours) {
 
 // Wide enough that points on a surface close it, as if the whole cloud were one layer.
 double closingSize(const PointSet& set, const ProjectedBounds& bounds, double pixels) {
-  constexpr double kOverlap = 1.8;
+  constexpr double kOverlap = 2.2;
   constexpr double kMost = 8.0;
   const Eigen::Vector3d size = pixels * (bounds.max - bounds.min);
   const double area = size.x() * size.y() / static_cast<double>(set.positions.size());
@@ -120,9 +120,10 @@ void addScene(vtkRenderer& renderer, const Drawing& drawing, const Layout& layou
     const double size = set.size > 0.0 ? set.size * layout.unit : closingSize(set, bounds, pixels);
     addPoints(renderer, set, size);
   }
-  const Eigen::Vector3d lift = kLiftPixels * layout.unit / pixels * projection.towards;
+  const double lift = drawing.facets.empty() ? 0.0 : kLiftPixels * layout.unit / pixels;
   for (const LineSet& set : drawing.lines) {
-    if (!set.lines.empty()) addLines(renderer, set, set.width * layout.unit, lift);
+    if (!set.lines.empty())
+      addLines(renderer, set, set.width * layout.unit, lift * projection.towards);
   }
 }
 

@@ -6,26 +6,25 @@
 #include <cstdio>
 
 #include "io/failure.h"
-#include "view/projection.h"
 
 namespace storey::view {
 namespace {
 
-Drawing drawStage(const Reconstruction& r, Stage stage, std::optional<int> slice) {
+Drawing drawStage(const Reconstruction& r, Stage stage, View view, std::optional<int> slice) {
   switch (stage) {
     case Stage::Confidence:
-      return detail::drawConfidence(r);
+      return detail::drawConfidence(r, view);
     case Stage::Directions:
     case Stage::Labels:
-      return detail::drawDirections(r, stage);
+      return detail::drawDirections(r, stage, view);
     case Stage::Slices:
-      return detail::drawSlices(r);
+      return detail::drawSlices(r, view);
     case Stage::Normals:
-      return detail::drawNormals(r);
+      return detail::drawNormals(r, view);
     case Stage::Regions:
-      return detail::drawRegions(r);
+      return detail::drawRegions(r, view);
     case Stage::Refined:
-      return detail::drawRefined(r);
+      return detail::drawRefined(r, view);
     case Stage::Floorplans:
       return detail::drawFloorplans(r);
     case Stage::Overlay:
@@ -68,7 +67,7 @@ std::vector<std::string> filesOf(Stage stage) {
 
 Drawing makeDrawing(const Reconstruction& reconstruction, Stage stage, View view,
                     std::optional<int> slice) {
-  Drawing drawing = drawStage(reconstruction, stage, slice);
+  Drawing drawing = drawStage(reconstruction, stage, view, slice);
   drawing.view = view;
   drawing.subtitle = io::printable(reconstruction.report().input, 40) + ": " + drawing.subtitle;
   if (boundsOf(drawing, projectionOf(view)).empty()) {
@@ -88,8 +87,11 @@ std::vector<std::size_t> evenlySpaced(std::size_t n, std::size_t at_most) {
 namespace detail {
 
 std::string shortNumber(double value) {
+  constexpr int kDigits = 3;  // more where the whole part has more: no exponent below a million
+  const int whole =
+      value == 0.0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
+  std::snprintf(text, sizeof text, "%.*g", std::clamp(whole, kDigits, 6), value);
   return text;
 }
 
@@ -97,13 +99,23 @@ std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
+Colour paler(Colour colour) {
+  const auto raise = [](int c) { return static_cast<std::uint8_t>((c + 255) / 2); };
+  return {raise(colour.r), raise(colour.g), raise(colour.b)};
+}
+
 std::vector<Tick> roundTicks(double low, double high) {
   constexpr double kLeastTicks = 4.0;
+  constexpr int kMostTicks = 10;  // a round step is up to 2.5 times finer
   const double range = high - low;
   const double step = roundLength(range / kLeastTicks);
+  const double first = std::ceil(low / step);
   std::vector<Tick> ticks;
-  for (double k = std::ceil(low / step); k * step <= high; k += 1.0) {
-    ticks.push_back({(k * step - low) / range, shortNumber(k * step)});
+  for (int k = 0; k <= kMostTicks; ++k) {
+    const double value = (first + k) * step;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", value + 0.0);  // never "-0"
+    if (value <= high) ticks.push_back({(value - low) / range, text});
   }
   return ticks;
 }

@@ -8,6 +8,7 @@
 
 #include "view/drawing.h"
 #include "view/options.h"
+#include "view/projection.h"
 #include "view/reconstruction.h"
 
 namespace storey::view {
@@ -28,19 +29,19 @@ std::vector<std::size_t> evenlySpaced(std::size_t n, std::size_t at_most);
 
 namespace detail {
 
-// The parts of `makeDrawing`, by what they draw. View and, but of a plan, subtitle are set after.
-Drawing drawConfidence(const Reconstruction& reconstruction);
-Drawing drawDirections(const Reconstruction& reconstruction, Stage stage);
-Drawing drawSlices(const Reconstruction& reconstruction);
-Drawing drawNormals(const Reconstruction& reconstruction);
-Drawing drawRegions(const Reconstruction& reconstruction);
-Drawing drawRefined(const Reconstruction& reconstruction);
+// The parts of `makeDrawing`, by what they draw; the view and the name of the cloud are set there.
+Drawing drawConfidence(const Reconstruction& reconstruction, View view);
+Drawing drawDirections(const Reconstruction& reconstruction, Stage stage, View view);
+Drawing drawSlices(const Reconstruction& reconstruction, View view);
+Drawing drawNormals(const Reconstruction& reconstruction, View view);
+Drawing drawRegions(const Reconstruction& reconstruction, View view);
+Drawing drawRefined(const Reconstruction& reconstruction, View view);
 Drawing drawFloorplans(const Reconstruction& reconstruction);
 Drawing drawModel(const Reconstruction& reconstruction);
 Drawing drawOverlay(const Reconstruction& reconstruction);
 Drawing drawSlice(const Reconstruction& reconstruction, std::optional<int> slice);
 
-/// The number with three significant digits.
+/// The number with three significant digits, or its whole part if that is longer.
 std::string shortNumber(double value);
 
 /// A count and its noun: "1 point", "5 points".
@@ -49,19 +50,27 @@ std::string counted(std::size_t count, const std::string& noun);
 /// Ticks at round values of a bar that goes from `low` to `high`; needs low < high.
 std::vector<Tick> roundTicks(double low, double high);
 
-/// A thinned cloud; colour(i) is that of point i. Sets the subtitle.
+/// The colour, half-way to white.
+Colour paler(Colour colour);
+
+/// A thinned cloud; colour(i) is that of point i. What is seen from behind is paler, or the far
+/// walls of a building without a roof would look like its roof. Sets the subtitle.
 template <typename ColourOf>
-void addCloud(Drawing& drawing, const StageCloud& cloud, const ColourOf& colour) {
+void addCloud(Drawing& drawing, const StageCloud& cloud, View view, const ColourOf& colour) {
+  constexpr float kBehind = -0.05f;  // cosine; level normals seen from above are not behind
   const std::size_t n = cloud.positions.size();
+  const Eigen::Vector3f towards = projectionOf(view).towards.cast<float>();
   PointSet set;
   for (const std::size_t i : evenlySpaced(n, kMaxDrawnPoints)) {
     set.positions.push_back(cloud.positions[i]);
-    set.colours.push_back(colour(i));
+    const bool behind = cloud.normals[i].dot(towards) < kBehind;
+    set.colours.push_back(behind ? paler(colour(i)) : colour(i));
   }
   drawing.subtitle = counted(n, "point");
   if (set.positions.size() < n) {
     drawing.subtitle += ", " + std::to_string(set.positions.size()) + " drawn";
   }
+  drawing.subtitle += ", paler where seen from behind";
   drawing.points.push_back(std::move(set));
 }
 

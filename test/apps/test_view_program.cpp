@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// storey_view as a user runs it. Pictures need a display, or xvfb-run to make one.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+
+#include "view_files.h"
+
+namespace storey::test {
+namespace {
+
+struct Outcome {
+  int status = -1;
+  std::string message;
+};
+
+Outcome runView(const std::string& arguments, const std::string& prefix = "") {
+  const TemporaryDirectory scratch;
+  const std::string command = prefix + std::string(STOREY_VIEW) + " " + arguments + " >" +
+                              scratch.file("out") + " 2>" + scratch.file("err");
+  const int result = std::system(command.c_str());
+  return {WIFEXITED(result) ? WEXITSTATUS(result) : -1, readAll(scratch.file("err"))};
+}
+
+/// What to put before the program so that it finds a display; false if there is nothing.
+bool findDisplay(std::string& prefix) {
+  const char* const display = std::getenv("DISPLAY");
+  prefix = "";
+  if (display != nullptr && *display != '\0') return true;
+  prefix = "xvfb-run -a -s '-screen 0 1600x1200x24' ";
+  return std::system("command -v xvfb-run >/dev/null && command -v Xvfb >/dev/null") == 0;
+}
+
+std::uint32_t bigEndian(const std::string& bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    value = value << 8 | static_cast<unsigned char>(bytes.at(at + i));
+  }
+  return value;
+}
+
+TEST(ViewProgram, WrongCommandLinesGiveOneLineAndStatus2) {
+  const BoxReconstruction box;
+  for (const char* const arguments :
+       {"", "--pictures", "DIR", "DIR --pictures --picture a.png", "DIR --picture a.png",
+        "DIR --picture a.png --stage nothing", "DIR --picture a.png --stage model --view behind",
+        "DIR --picture a.png --stage model --slice 1", "DIR --pictures --stage model",
+        "DIR --picture a.png --stage slice --slice -1", "DIR --pictures --size 100x100",
+        "DIR --picture a.png --stage slice --view iso", "DIR --pictures --size 800",
+        "DIR --pictures --size 800x600x2", "DIR --pictures --siz 800x600", "DIR DIR --pictures"}) {
+    std::string with_directory = arguments;
+    for (std::size_t at; (at = with_directory.find("DIR")) != std::string::npos;) {
+      with_directory.replace(at, 3, box.path());
+    }
+    const Outcome outcome = runView(with_directory);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_EQ(outcome.message.find('\n') + 1, outcome.message.size()) << outcome.message;
+  }
+}
+
+TEST(ViewProgram, HelpIsNoError) { EXPECT_EQ(runView("--help").status, 0); }
+
+TEST(ViewProgram, MissingInputsGiveStatus66AndTheirName) {
+  const BoxReconstruction box;
+  const TemporaryDirectory empty;
+  EXPECT_EQ(runView("/nonexistent/directory --pictures").status, 66);
+  EXPECT_EQ(runView(box.file("report.json") + " --pictures").status, 66);
+  EXPECT_EQ(runView(empty.path() + " --pictures").status, 66);
+  const Outcome outcome =
+      runView(box.path() + " --picture " + box.file("a.png") + " --stage confidence");
+  EXPECT_EQ(outcome.status, 66);
+  EXPECT_NE(outcome.message.find("02_confidence.pcd"), std::string::npos) << outcome.message;
+}
+
+TEST(ViewProgram, WithoutADisplayItSaysWhatToDo) {
+  const BoxReconstruction box;
+  const Outcome outcome = runView(box.path() + " --picture " + box.file("a.png") + " --stage model",
+                                  "env -u DISPLAY -u WAYLAND_DISPLAY ");
+  if (outcome.status == 0) GTEST_SKIP() << "this VTK needs no display";
+  EXPECT_EQ(outcome.status, 75);
+  EXPECT_NE(outcome.message.find("xvfb-run"), std::string::npos) << outcome.message;
+  EXPECT_FALSE(std::filesystem::exists(box.file("a.png")));
+}
+
+TEST(ViewProgram, PicturesArePngOfTheSizeAskedForAndTheSameEachTime) {
+  std::string prefix;
+  if (!findDisplay(prefix)) GTEST_SKIP() << "no display and no xvfb-run";
+  const BoxReconstruction box;
+  const auto draw = [&](const std::string& name, const std::string& view) {
+    const Outcome outcome = runView(box.path() + " --picture " + box.file(name) +
+                                        " --stage model --size 500x400 --view " + view,
+                                    prefix);
+    EXPECT_EQ(outcome.status, 0) << outcome.message;
+    return readAll(box.file(name));
+  };
+  const std::string png = draw("a.png", "iso");
+  ASSERT_GT(png.size(), 33u);
+  EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
+  EXPECT_EQ(png.substr(12, 4), "IHDR");
+  EXPECT_EQ(bigEndian(png, 16), 500u);
+  EXPECT_EQ(bigEndian(png, 20), 400u);
+  EXPECT_EQ(draw("b.png", "iso"), png);
+  EXPECT_NE(draw("c.png", "top"), png);  // an empty picture would be the same from everywhere
+}
+
+TEST(ViewProgram, AllPicturesAreWrittenForWhichThereAreFiles) {
+  std::string prefix;
+  if (!findDisplay(prefix)) GTEST_SKIP() << "no display and no xvfb-run";
+  const BoxReconstruction box;
+  box.writeStages();
+  const Outcome outcome = runView(box.path() + " --pictures --size 400x400", prefix);
+  EXPECT_EQ(outcome.status, 0) << outcome.message;
+  for (const char* const name :
+       {"04_slices.png", "05_normals.png", "07_refined.png", "09_slice.png", "09_floorplans.png",
+        "11_model.png", "11_model_top.png", "12_overlay.png"}) {
+    EXPECT_TRUE(std::filesystem::exists(box.file(name))) << name;
+  }
+  EXPECT_FALSE(std::filesystem::exists(box.file("02_confidence.png")));
+  EXPECT_NE(outcome.message.find("02_confidence.png"), std::string::npos) << outcome.message;
+}
+
+}  // namespace
+}  // namespace storey::test
