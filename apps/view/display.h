@@ -4,7 +4,7 @@
 namespace storey::view {
 
 /// A connection to the X server that the environment names. To be held while VTK draws: VTK ends
-/// the program if the server does not answer, and a server started for one program (xvfb-run)
+/// the program if the server is of no use, and a server started for one program (xvfb-run)
 /// resets itself, deaf for a moment, whenever its last connection is closed.
 class DisplayConnection {
  public:
@@ -13,10 +13,12 @@ class DisplayConnection {
   DisplayConnection(const DisplayConnection&) = delete;
   DisplayConnection& operator=(const DisplayConnection&) = delete;
 
-  bool open() const { return display_ != nullptr; }
+  /// Whether the server answered and offers OpenGL (GLX) in full colour.
+  bool usable() const { return usable_; }
 
  private:
   void* display_;
+  bool usable_ = false;
 };
 
 }  // namespace storey::view

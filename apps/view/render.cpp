@@ -67,7 +67,7 @@ PictureWriter::PictureWriter(const PictureSize& size) : size_(size) {
   const vtkNew<vtkRenderWindow> window;
   const bool needs_display = window->IsA("vtkXOpenGLRenderWindow") != 0;
   window->SetOffScreenRendering(1);
-  if ((needs_display && !display_.open()) || window->SupportsOpenGL() == 0) {
+  if ((needs_display && !display_.usable()) || window->SupportsOpenGL() == 0) {
     throw io::Failure(io::Temporary, "", "there is no display with OpenGL to draw on",
                       "run it as: xvfb-run -a -s '-screen 0 1600x1200x24' storey_view ...");
   }

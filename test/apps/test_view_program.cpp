@@ -23,13 +23,17 @@ Outcome runView(const std::string& arguments, const std::string& prefix = "") {
   return {WIFEXITED(result) ? WEXITSTATUS(result) : -1, readAll(scratch.file("err"))};
 }
 
+bool haveVirtualDisplay() {
+  return std::system("command -v xvfb-run >/dev/null && command -v Xvfb >/dev/null") == 0;
+}
+
 /// What to put before the program so that it finds a display; false if there is nothing.
 bool findDisplay(std::string& prefix) {
   const char* const display = std::getenv("DISPLAY");
   prefix = "";
   if (display != nullptr && *display != '\0') return true;
   prefix = "xvfb-run -a -s '-screen 0 1600x1200x24' ";
-  return std::system("command -v xvfb-run >/dev/null && command -v Xvfb >/dev/null") == 0;
+  return haveVirtualDisplay();
 }
 
 std::uint32_t bigEndian(const std::string& bytes, std::size_t at) {
@@ -81,6 +85,18 @@ TEST(ViewProgram, WithoutADisplayItSaysWhatToDo) {
   EXPECT_EQ(outcome.status, 75);
   EXPECT_NE(outcome.message.find("xvfb-run"), std::string::npos) << outcome.message;
   EXPECT_FALSE(std::filesystem::exists(box.file("a.png")));
+}
+
+TEST(ViewProgram, ADisplayWithoutOpenGlIsToldBeforeItEndsTheProgram) {
+  if (!haveVirtualDisplay()) GTEST_SKIP() << "no xvfb-run";
+  const BoxReconstruction box;
+  for (const char* const screen : {"640x480x24 -extension GLX", "640x480x8"}) {
+    const Outcome outcome =
+        runView(box.path() + " --picture " + box.file("a.png") + " --stage model",
+                std::string("xvfb-run -a -s '-screen 0 ") + screen + "' ");
+    EXPECT_EQ(outcome.status, 75) << screen << outcome.message;
+    EXPECT_FALSE(std::filesystem::exists(box.file("a.png")));
+  }
 }
 
 TEST(ViewProgram, PicturesArePngOfTheSizeAskedForAndTheSameEachTime) {
