@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <pcl/console/print.h>
 #include <storey/surface/layer_energy.h>
 
 #include <algorithm>
@@ -10,9 +11,34 @@ namespace storey {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Differences below this are rounding of sums of numbers around 1.
+// Of the energy's scale: differences below this are rounding of sums.
 constexpr double kEpsilon = 1e-9;
 constexpr int kSubgradientSteps = 60;
+
+double roundingOf(const LayerEnergy& energy) {
+  double largest = 0.0;
+  for (const std::vector<double>* costs : {&energy.data, &energy.pair, &energy.label_cost}) {
+    for (const double cost : *costs) largest = std::max(largest, cost);
+  }
+  return kEpsilon * largest;
+}
+
+bool isConsistent(const LayerEnergy& energy) {
+  const std::size_t n = energy.num_nodes;
+  const std::size_t m = energy.num_labels;
+  bool valid =
+      energy.data.size() == n * m && energy.pair.size() == m * m && energy.label_cost.size() == m;
+  for (const std::vector<double>* costs : {&energy.data, &energy.pair, &energy.label_cost}) {
+    for (const double cost : *costs) valid = valid && cost >= 0.0 && cost < kInfinity;
+  }
+  if (!valid) {
+    PCL_ERROR(
+        "[storey::LayerEnergy] %zu x %zu data, %zu pair and %zu label costs expected, all finite "
+        "and >= 0.\n",
+        n, m, m * m, m);
+  }
+  return valid;
+}
 
 struct ChainSolution {
   std::vector<int> labels;
@@ -67,7 +93,7 @@ struct LaterBound {
 class BranchAndBound {
  public:
   BranchAndBound(const LayerEnergy& energy, std::size_t max_work)
-      : energy_(energy), max_work_(max_work) {
+      : energy_(energy), max_work_(max_work), rounding_(roundingOf(energy)) {
     best_.energy = kInfinity;
   }
 
@@ -83,7 +109,7 @@ class BranchAndBound {
     relax(root, open);
     double bound = kInfinity;  // of what was left unexplored
     while (!open.empty()) {
-      if (open.top().bound >= best_.energy - kEpsilon) break;
+      if (open.top().bound >= best_.energy - rounding_) break;
       if (best_.work >= max_work_) {
         bound = open.top().bound;
         break;
@@ -98,7 +124,7 @@ class BranchAndBound {
       }
     }
     best_.lower_bound = std::min(best_.energy, bound);
-    best_.optimal = best_.energy - best_.lower_bound <= kEpsilon;
+    best_.optimal = best_.energy - best_.lower_bound <= rounding_;
     return best_;
   }
 
@@ -133,7 +159,7 @@ class BranchAndBound {
         best = branch;
         best.bound = solution.energy + paid;
       }
-      if (best.bound >= best_.energy - kEpsilon) return;
+      if (best.bound >= best_.energy - rounding_) return;
       if (!shiftMultipliers(branch, solution.labels, step)) break;
     }
     open.push(std::move(best));
@@ -164,7 +190,7 @@ class BranchAndBound {
         at_users += branch.multipliers[i * m + t];
       }
       const double missing = energy_.label_cost[t] - at_users;
-      if (users.empty() || missing <= kEpsilon) continue;
+      if (users.empty() || missing <= rounding_) continue;
       moved = true;
       for (std::size_t i = 0; i < n; ++i) branch.multipliers[i * m + t] *= 1.0 - rate;
       const double target = rate * energy_.label_cost[t] / static_cast<double>(users.size());
@@ -173,7 +199,8 @@ class BranchAndBound {
     return moved;
   }
 
-  // The open label whose use in the relaxed labelling is furthest from being paid for.
+  // The open label whose use in the relaxed labelling is furthest from being paid for. There is
+  // one: with all labels decided the relaxation is exact, and its branch was closed.
   std::size_t branchingLabel(const Branch& branch) {
     const std::size_t m = energy_.num_labels;
     const ChainSolution solution = solveChain(energy_, unary(branch));
@@ -196,6 +223,7 @@ class BranchAndBound {
 
   const LayerEnergy& energy_;
   std::size_t max_work_;
+  double rounding_;
   LayerLabeling best_;
 };
 
@@ -217,14 +245,15 @@ double LayerEnergy::evaluate(const std::vector<int>& labels) const {
 }
 
 LayerLabeling minimizeLayerEnergy(const LayerEnergy& energy, std::size_t max_work) {
-  if (energy.num_nodes == 0 || energy.num_labels == 0) return {};
+  if (energy.num_nodes == 0 || energy.num_labels == 0 || !isConsistent(energy)) return {};
   return BranchAndBound(energy, max_work).run();
 }
 
 LayerLabeling expandLayerLabels(const LayerEnergy& energy) {
   LayerLabeling current;
-  if (energy.num_nodes == 0 || energy.num_labels == 0) return current;
+  if (energy.num_nodes == 0 || energy.num_labels == 0 || !isConsistent(energy)) return current;
   current.energy = kInfinity;
+  const double rounding = roundingOf(energy);
   const std::size_t m = energy.num_labels;
   for (std::size_t t = 0; t < m; ++t) {
     const std::vector<int> constant(energy.num_nodes, static_cast<int>(t));
@@ -247,7 +276,7 @@ LayerLabeling expandLayerLabels(const LayerEnergy& energy) {
       const ChainSolution move = solveChain(energy, unary);
       ++current.work;
       const double value = energy.evaluate(move.labels);
-      if (value < current.energy - kEpsilon) {
+      if (value < current.energy - rounding) {
         current.energy = value;
         current.labels = move.labels;
         improved = true;
