@@ -2,6 +2,7 @@
 // The model alone, and over the cloud.
 #include <storey/surface/triangulation.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 

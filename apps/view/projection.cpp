@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "view/projection.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 
