@@ -146,23 +146,34 @@ void FloorplanGrammar::buildDictionary(std::vector<Occurrence>& edges) {
     const std::vector<int> extent_group = groupValues(extents, member_weights, length_tolerance_);
     const int num_letters = *std::max_element(extent_group.begin(), extent_group.end()) + 1;
     for (int e = 0; e < num_letters; ++e) {
-      Letter letter;
-      letter.angle = angle;
-      double weight = 0.0;
+      std::vector<std::size_t> same;
       for (std::size_t m = 0; m < members.size(); ++m) {
-        if (extent_group[m] != e) continue;
-        ++letter.count;
-        weight += member_weights[m];
-        letter.extent += member_weights[m] * extents[m];
+        if (extent_group[m] == e) same.push_back(members[m]);
       }
-      letter.extent /= std::max(weight, 1e-300);
-      if (letter.count < 2) continue;  // not repeated: the special letter
-      for (std::size_t m = 0; m < members.size(); ++m) {
-        if (extent_group[m] == e) edges[members[m]].letter = static_cast<int>(letters_.size());
-      }
-      letters_.push_back(letter);
+      if (same.size() < 2) continue;  // not repeated: the special letter
+      for (const std::size_t i : same) edges[i].letter = static_cast<int>(letters_.size());
+      letters_.push_back(makeLetter(edges, same));
     }
   }
+}
+
+FloorplanGrammar::Letter FloorplanGrammar::makeLetter(
+    const std::vector<Occurrence>& edges, const std::vector<std::size_t>& members) const {
+  double weight = 0.0;
+  double extent = 0.0;
+  Eigen::Vector2d direction = Eigen::Vector2d::Zero();
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const std::size_t i : members) {
+    const double w = std::max(edges[i].weight, 1e-300);
+    weight += w;
+    direction += w * unit(edges[i].angle);
+    middle += w * edges[i].middle;
+    extent += w * edges[i].extent;
+  }
+  // A letter's own direction: letters of one group of angles may be degrees apart.
+  const double angle = std::atan2(direction.y(), direction.x());
+  if (encoding_ == Encoding::Walls) extent = unit(angle).dot(middle);
+  return {angle, extent / weight};
 }
 
 void FloorplanGrammar::encode(const std::vector<Floorplan>& plans) {
@@ -229,7 +240,8 @@ double FloorplanGrammar::distance(std::size_t a, std::size_t b) const {
 
 Floorplan FloorplanGrammar::decode(std::size_t plan) const {
   Floorplan decoded = plans_[plan];
-  if (encoding_ == Encoding::Turns) return decoded;
+  // Without letters (bad tolerances) there is nothing to decode.
+  if (encoding_ == Encoding::Turns || strings_[plan].empty()) return decoded;
   std::size_t next = 0;
   const auto decodeRing = [&](FloorplanRing& ring) {
     const std::vector<int>& string = strings_[plan][next++];

@@ -54,7 +54,8 @@ class FloorplanGrammar {
   std::size_t getDictionarySize() const { return letters_.size(); }
   const Strings& getStrings(std::size_t plan) const { return strings_[plan]; }
 
-  /// NEdist of two encoded floorplans, (10), in [0, 1].
+  /// NEdist of two encoded floorplans, (10), in [0, 1]. Symmetric, but no metric: divided by the
+  /// longer length the edit distance does not keep the triangle inequality (ab, aba, ba).
   double distance(std::size_t a, std::size_t b) const;
 
   /// The floorplan that a string of walls stands for: each corner is the intersection of the two
@@ -68,7 +69,6 @@ class FloorplanGrammar {
   struct Letter {
     double angle = 0.0;   // of the normal, or of the turn
     double extent = 0.0;  // offset, or length
-    std::size_t count = 0;
   };
   struct Occurrence {
     double angle = 0.0;
@@ -80,6 +80,8 @@ class FloorplanGrammar {
 
   std::vector<Occurrence> collectEdges() const;
   void buildDictionary(std::vector<Occurrence>& edges);
+  Letter makeLetter(const std::vector<Occurrence>& edges,
+                    const std::vector<std::size_t>& members) const;
 
   Encoding encoding_ = Encoding::Walls;
   double length_tolerance_ = 0.0;
