@@ -148,8 +148,12 @@ void writeIntermediate(const io::OutputDirectory& directory, const Result& resul
   writeConfidence(directory, result);
   io::writeCloudPcd(directory.file("03_directions.pcd"),
                     withLabels(*result.cloud, result.point_directions));
-  writeSliceStages(directory, result);
-  writeFloorplanLines(directory.file("09_floorplans.vtk"), result.slices);
+  if (result.slices.empty()) {
+    writeFloorplanLines(directory.file("09_floorplans.vtk"), result.blocks);
+  } else {
+    writeSliceStages(directory, result);
+    writeFloorplanLines(directory.file("09_floorplans.vtk"), result.slices);
+  }
   writeModelTriangles(directory.file("11_model.vtk"), result.model.model);
 }
 

@@ -32,6 +32,11 @@ po::options_description describe(Options& o) {
       "+z]")("space", po::value<std::string>()->default_value("auto"),
              "what the model fills: outside = a building seen from outside, inside = a room or "
              "yard seen from inside, auto = told from the normals")(
+      "method", po::value<std::string>()->default_value("building"),
+      "where the floorplans come from: building = walls of the whole building at once, paper = "
+      "slice by slice")(
+      "block-cost", po::value(&o.block_cost)->default_value(0.0),
+      "method building: wall area that one more block must explain [0 = derived]")(
       "estimate-normals", po::bool_switch(&o.estimate_normals),
       "estimate and orient the normals even if the file has some")(
       "noise", po::value(&o.noise)->default_value(0.0),
@@ -123,6 +128,9 @@ bool parseOptions(int argc, char** argv, Options& options) {
   options.side =
       choose<SpaceSide>("space", given["space"].as<std::string>(), {"auto", "outside", "inside"},
                         {SpaceSide::Auto, SpaceSide::Outside, SpaceSide::Inside});
+  options.method = choose<Method>("method", given["method"].as<std::string>(),
+                                  {"building", "paper"}, {Method::Building, Method::Paper});
+  requireNonNegative("block-cost", options.block_cost);
   using Encoding = FloorplanGrammar::Encoding;
   options.encoding = choose<Encoding>("encoding", given["encoding"].as<std::string>(),
                                       {"walls", "turns"}, {Encoding::Walls, Encoding::Turns});

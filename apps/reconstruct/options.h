@@ -12,12 +12,17 @@ namespace storey::reconstruct {
 /// What encloses the points: a building seen from outside, or a space (room, yard) from inside.
 enum class SpaceSide { Auto, Outside, Inside };
 
+/// Where the floorplans come from: the walls of the whole building, or slice by slice as the paper.
+enum class Method { Building, Paper };
+
 /// Everything a user can set. Lengths are in the cloud's unit; 0 derives them from the cloud.
 struct Options {
   std::string input;
   std::string output_directory;
   Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< zero: found from the walls
   SpaceSide side = SpaceSide::Auto;
+  Method method = Method::Building;
+  double block_cost = 0.0;        ///< wall area, squared unit of the cloud
   bool estimate_normals = false;  ///< even if the file has some
   double noise = 0.0;
   double kept_share = 0.85;

@@ -51,7 +51,9 @@ class Pipeline {
     stage("scale", [&] { return measureScale(); });
     stage("planar", [&] { return filterPlanar(); });
     stage("directions", [&] { return findDirections(); });
-    stage("floorplans", [&] { return extractFloorplans(); });
+    stage("floorplans", [&] {
+      return options_.method == Method::Building ? extractBlocks() : extractFloorplans();
+    });
     stage("model", [&] { return buildModel(); });
     return std::move(result_);
   }
@@ -187,6 +189,23 @@ class Pipeline {
     return format("%zu dominant directions", result_.directions.size());
   }
 
+  std::string extractBlocks() {
+    BuildingFloorplanExtraction<Point> extraction;
+    extraction.setInputCloud(result_.cloud);
+    extraction.setIndices(pcl::make_shared<pcl::Indices>(result_.planar));
+    extraction.setNoise(result_.noise);
+    extraction.setDensity(result_.scale.density);
+    extraction.setBlockCost(options_.block_cost);
+    if (!extraction.extract(result_.blocks)) {
+      refuse("the walls enclose no building",
+             "is half of it missing, or the vertical wrong (--up)?");
+    }
+    result_.building = extraction.getResult();
+    return format("%zu walls, %zu cells, %zu layers in %zu blocks", result_.building.walls.size(),
+                  result_.building.plan.cells.size(), result_.building.levels.size() - 1,
+                  result_.blocks.size());
+  }
+
   std::string extractFloorplans() {
     LayerwiseFloorplanExtraction<Point> extraction;
     extraction.setInputCloud(result_.cloud);
@@ -214,6 +233,7 @@ class Pipeline {
     LayerwiseMRFReconstruction<Point> reconstruction;
     reconstruction.setInputCloud(result_.cloud);
     reconstruction.setFloorplans(result_.slices);
+    reconstruction.setBlocks(result_.blocks);
     reconstruction.setNoise(result_.noise);
     reconstruction.setSmoothness(options_.smoothness);
     reconstruction.setLabelCost(options_.label_cost);

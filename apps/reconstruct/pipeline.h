@@ -5,6 +5,7 @@
 #include <pcl/point_types.h>
 #include <storey/features/vertical_direction_estimation.h>
 #include <storey/filters/cloud_scale.h>
+#include <storey/segmentation/building_floorplan_extraction.h>
 #include <storey/segmentation/layerwise_floorplan_extraction.h>
 #include <storey/surface/layerwise_model.h>
 
@@ -46,7 +47,9 @@ struct Result {
   std::vector<std::size_t> direction_points;
   std::vector<int> point_directions;  ///< of each point; -1: none
   double slice_thickness = 0.0;
-  std::vector<FloorplanLayer> slices;
+  std::vector<FloorplanLayer> slices;  ///< method paper: a floorplan for each slice
+  std::vector<FloorplanLayer> blocks;  ///< method building
+  detail::BuildingFloorplans building;
   std::vector<SliceStages<Point>> stages;
   LayerwiseModel model;
   std::vector<StageTime> times;

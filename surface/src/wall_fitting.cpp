@@ -78,6 +78,7 @@ void collectMoments(const std::vector<FloorplanLayer>& layers, const FitPoints& 
     indices.emplace_back(detail::stretchesOf(layer.plan), kGate * noise);
   }
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
+    if (!detail::isWallNormal(points.normals[i])) continue;
     const Eigen::Vector3d p = points.positions[i].cast<double>();
     const auto layer = std::upper_bound(
         layers.begin(), layers.end(), p.z(),
@@ -225,8 +226,13 @@ void moveOrRelease(FloorplanRing& ring, const std::map<int, WallFit>& fits) {
 
 std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPoints& points,
                                 const FitOptions& options) {
-  if (!(options.noise > 0.0)) {
-    PCL_ERROR("[storey::fitWalls] noise is %g, expected > 0.\n", options.noise);
+  if (!(options.noise > 0.0) || std::isinf(options.noise)) {
+    PCL_ERROR("[storey::fitWalls] noise is %g, expected finite and > 0.\n", options.noise);
+    return {};
+  }
+  if (points.normals.size() != points.positions.size()) {
+    PCL_ERROR("[storey::fitWalls] %zu normals for %zu points.\n", points.normals.size(),
+              points.positions.size());
     return {};
   }
   std::map<int, WallFit> fits;

@@ -33,17 +33,19 @@ struct FitOptions {
 };
 
 /// Fits every wall to all the points of all the layers that use it (the decoded shape of a type is
-/// fitted again: doc/method.md, deviation 5), robustly by Tukey's weights, and moves the corners to the
-/// intersections of the fitted lines. A ring whose edges would turn around keeps its corners and
-/// loses its wall ids.
-/// \param layers with wall ids; changed in place \return the lines by wall id
+/// fitted again: doc/method.md, deviation 5), robustly by Tukey's weights, and moves the corners to
+/// the intersections of the fitted lines. A ring whose edges would turn around keeps its corners
+/// and loses its wall ids. Points whose normals are nearer to the vertical than to the horizontal
+/// are of roofs and floors and take no part. \param layers with wall ids, bottom to top with
+/// disjoint ranges; changed in place \return the lines by wall id; none, after a PCL_ERROR, for a
+/// bad option or normals that are not parallel to the positions
 std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPoints& points,
                                 const FitOptions& options);
 
 /// Moves the boundaries between layers, the foot and the top to where wall points end or start
-/// (doc/method.md, deviation 6): the maximum likelihood of a step in the density of the points, blurred by
-/// the noise, over all walls that end or start there together. A boundary without such points
-/// stays. Layers that shrink below three noise deviations are dropped.
+/// (doc/method.md, deviation 6): the maximum likelihood of a step in the density of the points,
+/// blurred by the noise, over all walls that end or start there together. A boundary without such
+/// points stays. Layers that shrink below three noise deviations are dropped.
 void fitHeights(std::vector<FloorplanLayer>& layers, const FitPoints& points,
                 const FitOptions& options);
 

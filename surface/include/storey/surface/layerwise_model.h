@@ -32,4 +32,9 @@ LayerwiseModel buildLayerwiseModel(const std::vector<FloorplanLayer>& slices,
                                    const FitPoints& points,
                                    const LayerwiseModelOptions& options);
 
+/// The same from blocks whose floorplans are chosen already (edges carry wall ids, as from
+/// `BuildingFloorplanExtraction`): fit, extrusion and checks. Equal outlines are one type.
+LayerwiseModel buildModelOfBlocks(const std::vector<FloorplanLayer>& blocks,
+                                  const FitPoints& points, const LayerwiseModelOptions& options);
+
 }  // namespace storey

@@ -16,12 +16,16 @@ namespace storey {
 /// them to their neighbours; walls and heights are fitted to all points; equal neighbours merge
 /// into blocks, and coplanar facets into polygons.
 ///
-/// Needs an upright cloud (+z is up) with outward normals. Floorplans of the slices come from
-/// `setFloorplans`; without them `LayerwiseFloorplanExtraction` extracts them from the input.
+/// Needs an upright cloud (+z is up) with outward normals. Where the floorplans come from:
+/// - by default from the walls of the whole building (`BuildingFloorplanExtraction`): the MRF over
+///   the layers is then one over cells of the plan, and its blocks are the dominant floorplans;
+/// - `setBlocks` gives the result of that extraction, with options of your own;
+/// - `setFloorplans` gives one floorplan a slice, as `LayerwiseFloorplanExtraction` extracts them:
+///   dominant ones are chosen by (11)-(15), the paper's way.
 ///
 /// The result is `getModel`, a polyhedron with double vertices; the `pcl::PolygonMesh` is its
-/// triangulated export with the header of the input. Without an input, or where no slice has a
-/// floorplan, the output is empty after a PCL_ERROR. Deterministic.
+/// triangulated export with the header of the input. Without an input, or where no outline
+/// is found, the output is empty after a PCL_ERROR. Deterministic.
 /// \note Deviations, each with its reason: the energy is minimised exactly (`minimizeLayerEnergy`),
 /// the distance of floorplans knows their position (`FloorplanGrammar`), shapes and heights are
 /// fitted to the points again (`fitWalls`, `fitHeights`), the mesh is conforming
@@ -34,9 +38,13 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
 
   LayerwiseMRFReconstruction() { this->check_tree_ = false; }
 
-  /// Floorplans of the slices, bottom to top; empty ones are skipped. None (default): extracted.
+  /// Floorplans of the slices, bottom to top; empty ones are skipped.
   void setFloorplans(const std::vector<FloorplanLayer>& floorplans) { floorplans_ = floorplans; }
   const std::vector<FloorplanLayer>& getFloorplans() const { return floorplans_; }
+
+  /// Blocks with wall ids, bottom to top; not used where floorplans of slices are set.
+  void setBlocks(const std::vector<FloorplanLayer>& blocks) { blocks_ = blocks; }
+  const std::vector<FloorplanLayer>& getBlocks() const { return blocks_; }
 
   /// Standard deviation of the points across their walls; 0 (default): estimated from the input.
   void setNoise(double noise) { noise_ = noise; }
@@ -81,6 +89,7 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
   bool build();
 
   std::vector<FloorplanLayer> floorplans_;
+  std::vector<FloorplanLayer> blocks_;
   DominantFloorplanOptions options_;
   double noise_ = 0.0;
   double grid_ = 0.0;

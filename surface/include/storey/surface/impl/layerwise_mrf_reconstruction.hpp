@@ -6,7 +6,7 @@
 #include <pcl/console/print.h>
 #include <pcl/conversions.h>
 #include <storey/filters/cloud_scale.h>
-#include <storey/segmentation/layerwise_floorplan_extraction.h>
+#include <storey/segmentation/building_floorplan_extraction.h>
 #include <storey/surface/mesh_export.h>
 
 #include <algorithm>
@@ -17,6 +17,9 @@ namespace detail {
 
 // Lines of slices scatter by less than this about their wall, and walls further apart differ.
 constexpr double kLetterToleranceInNoise = 1.5;
+// Two bins of the levels of `BuildingFloorplanExtraction`: how far its heights may be off.
+constexpr double kLevelErrorInNoise = 6.0;
+constexpr double kLevelErrorInHeight = 1.0 / 150.0;
 
 /// The finite points with their normals; a normal that is not finite becomes zero (unknown).
 template <typename PointT>
@@ -55,26 +58,33 @@ bool LayerwiseMRFReconstruction<PointT>::build() {
   if (!this->initCompute() || !parametersValid()) return false;
   const CloudScale scale = noise_ > 0.0 ? CloudScale{noise_} : estimateCloudScale(*this->input_);
   LayerwiseModelOptions options;
-  options.noise = std::max(scale.noise, detail::kSliceLeastNoise * scale.extent);
+  options.noise = std::max(scale.noise, detail::kBuildingLeastNoise * scale.extent);
   options.dominant = options_;
   options.dominant.length_tolerance = detail::kLetterToleranceInNoise * options.noise;
   options.grid = grid_;
-  std::vector<FloorplanLayer> slices = floorplans_;
-  if (slices.empty()) {
-    LayerwiseFloorplanExtraction<PointT> extraction;
-    extraction.setInputCloud(this->input_);
-    extraction.setIndices(this->indices_);
-    extraction.setNoise(noise_);
-    extraction.extract(slices);
-  }
-  if (!slices.empty()) {
-    options.slice_thickness = slices.front().z_max - slices.front().z_min;
-    result_ = buildLayerwiseModel(slices, detail::toFitPoints(*this->input_, *this->indices_),
-                                  options);
+  const FitPoints points = detail::toFitPoints(*this->input_, *this->indices_);
+  if (!floorplans_.empty()) {
+    options.slice_thickness = floorplans_.front().z_max - floorplans_.front().z_min;
+    result_ = buildLayerwiseModel(floorplans_, points, options);
+  } else {
+    std::vector<FloorplanLayer> blocks = blocks_;
+    if (blocks.empty()) {
+      BuildingFloorplanExtraction<PointT> extraction;
+      extraction.setInputCloud(this->input_);
+      extraction.setIndices(this->indices_);
+      extraction.setNoise(noise_);
+      extraction.extract(blocks);
+    }
+    if (!blocks.empty()) {
+      const double height = blocks.back().z_max - blocks.front().z_min;
+      options.slice_thickness = std::max(detail::kLevelErrorInNoise * options.noise,
+                                         detail::kLevelErrorInHeight * height);
+      result_ = buildModelOfBlocks(blocks, points, options);
+    }
   }
   this->deinitCompute();
   if (!result_.model.empty()) return true;
-  PCL_ERROR("[storey::%s] no slice has a floorplan.\n", getClassName().c_str());
+  PCL_ERROR("[storey::%s] no outline was found.\n", getClassName().c_str());
   return false;
 }
 

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl/pcl_base.h>
+#include <pcl/point_types.h>
+#include <storey/filters/eigen_alignment.h>
+#include <storey/segmentation/detail/building_floorplans.h>
+#include <storey/segmentation/floorplan.h>
+
+#include <vector>
+
+namespace storey {
+
+/// The dominant floorplans of a building from the walls of all of it at once.
+///
+/// 1. The wall lines of the whole building are found once, over all heights: an oriented Hough vote
+///    of the unsmoothed normals, with the dominant directions taken from the lines.
+/// 2. The plan is cut by them into convex cells; where a wall ends in nothing, lines of the other
+///    directions are added for walls that were not seen.
+/// 3. Heights are cut into layers at change points that all walls share.
+/// 4. Inside or outside is decided for all cells by minimum cuts, whose evidence is the signed flux
+///    of the oriented points through the cells' sides; which layers form one block is decided with
+///    it, as a global optimum (dynamic programming over all partitions).
+///
+/// So gaps of many kinds close by themselves, and several components, courtyards and overhangs are
+/// nothing special. The result has wall ids shared by all blocks, and edges that few points confirm
+/// are hypothetical. Heights are good to a few noise deviations: `fitWalls` and `fitHeights` do the
+/// rest, as in `LayerwiseMRFReconstruction`.
+/// \note Deviation: this replaces stages 4 to 10 of [Sui et al. 2016], which work slice by slice;
+/// `LayerwiseFloorplanExtraction` has them [doc/method.md, deviation 14].
+///
+/// Needs an upright cloud (+z is up) with outward normals; only the indexed points are used, those
+/// with a non-finite position or normal are left out. Horizontal points (roofs, ground) count as
+/// evidence of what is below and above them. \par Complexity O(n lines + layers^2 cuts).
+/// Deterministic.
+template <typename PointT>
+class BuildingFloorplanExtraction : public pcl::PCLBase<PointT> {
+ public:
+  using Ptr = pcl::shared_ptr<BuildingFloorplanExtraction<PointT>>;
+  using ConstPtr = pcl::shared_ptr<const BuildingFloorplanExtraction<PointT>>;
+
+  /// Standard deviation of the points across their walls; 0 (default): estimated from the input.
+  void setNoise(double noise) { noise_ = noise; }
+  double getNoise() const { return noise_; }
+
+  /// Points per unit of wall area; 0 (default): estimated from the input.
+  void setDensity(double density) { density_ = density; }
+  double getDensity() const { return density_; }
+
+  /// Least supported area of a wall; 0 (default): (20 noise)^2.
+  void setMinWallArea(double square_length) { min_wall_area_ = square_length; }
+  double getMinWallArea() const { return min_wall_area_; }
+
+  /// K: the wall area that one more block must explain; 0 (default): 500 noise^2 and 0.2 % of the
+  /// area of all walls found.
+  void setBlockCost(double square_length) { block_cost_ = square_length; }
+  double getBlockCost() const { return block_cost_; }
+
+  /// \param blocks bottom to top, each with its outline
+  /// \return false, after a PCL_ERROR, for no input or a bad parameter; false without one if the
+  /// points show no building
+  bool extract(std::vector<FloorplanLayer>& blocks);
+
+  /// Walls, cells, levels and labels of the last `extract`.
+  const detail::BuildingFloorplans& getResult() const { return result_; }
+
+ private:
+  bool parametersValid() const;
+  void gatherPoints(std::vector<detail::WallPoint>& walls,
+                    std::vector<detail::LevelPoint>& levels) const;
+
+  double noise_ = 0.0;
+  double density_ = 0.0;
+  double min_wall_area_ = 0.0;
+  double block_cost_ = 0.0;
+  detail::BuildingFloorplans result_;
+};
+
+}  // namespace storey
+
+#include <storey/segmentation/impl/building_floorplan_extraction.hpp>
+
+#ifndef PCL_NO_PRECOMPILE
+extern template class storey::BuildingFloorplanExtraction<pcl::PointNormal>;
+extern template class storey::BuildingFloorplanExtraction<pcl::PointXYZINormal>;
+#endif

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <storey/segmentation/detail/cell_labels.h>
+#include <storey/segmentation/detail/wall_points.h>
+#include <storey/segmentation/floorplan.h>
+
+#include <vector>
+
+namespace storey::detail {
+
+struct BuildingFloorplanOptions {
+  double min_wall_area = 0.0;    ///< least supported area of a wall, > 0
+  double block_cost = 0.0;       ///< K, wall area that one more block must explain; 0: derived
+  double min_area = 0.0;         ///< of a component or courtyard
+  double keep_components = 0.1;  ///< components with less of the best supported one's support go
+};
+
+struct BuildingFloorplans {
+  std::vector<WallLine> walls;       ///< found in the points
+  std::vector<PlanLine> hypotheses;  ///< lines for walls that were not seen
+  LineArrangement plan;              ///< of walls and hypotheses; cells of the plan
+  std::vector<std::size_t> levels;   ///< bins of the layers
+  std::vector<CellBlock> blocks;
+  std::vector<FloorplanLayer> layers;  ///< parallel to `blocks` that have an outline, bottom to top
+};
+
+/// The floorplans of a building from the walls of all of it at once (see
+/// `BuildingFloorplanExtraction`). \param points of walls; at most `max_samples` of them, evenly
+/// drawn, vote for lines, all of them count as evidence
+BuildingFloorplans extractBuildingFloorplans(const std::vector<WallPoint>& points,
+                                             const std::vector<LevelPoint>& level_points,
+                                             const WallScale& scale,
+                                             const BuildingFloorplanOptions& options);
+
+/// Lines for walls that were not seen: at both ends of each run of a wall's support through which
+/// no other line passes, one of every other dominant direction.
+std::vector<PlanLine> hypothesiseLines(const std::vector<WallLine>& walls, const WallScale& scale);
+
+}  // namespace storey::detail

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/wall_lines.h>
+#include <storey/segmentation/detail/wall_support.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace storey::detail {
+namespace {
+
+constexpr int kFreeAngles = 360;     // one a degree, all around: lines are oriented
+constexpr double kFreeBin = 1.5;     // of the offset, noise deviations
+constexpr int kFreeWindow = 3;       // bins
+constexpr double kLockedBin = 0.75;  // noise deviations
+constexpr int kLockedWindow = 5;     // bins
+constexpr double kMinVotes = 0.3;    // of the points that the least support would have
+constexpr int kMaxFailures = 40;     // peaks without support in a row
+constexpr int kMaxLines = 400;       // cells grow with their square
+constexpr double kSameAngle = 0.1 * M_PI / 180.0;  // rad, least gap between directions
+constexpr double kAngleDeviations = 4.0;
+constexpr double kMinDirectionShare = 0.04;            // of the supported area
+constexpr double kNearDirection = 4.0 * M_PI / 180.0;  // rad
+constexpr double kOutweighs = 3.0;
+
+// Votes over (direction, offset bin). Rows may have any set of directions.
+class VoteTable {
+ public:
+  VoteTable(const std::vector<WallPoint>& points, std::vector<double> angles, double bin,
+            int window)
+      : angles_(std::move(angles)), bin_(bin), window_(window) {
+    double radius = 0.0;
+    for (const WallPoint& p : points) radius = std::max(radius, p.position.norm());
+    low_ = -radius - bin_;
+    bins_ = static_cast<int>(2.0 * (radius + bin_) / bin_) + 2;
+    votes_.assign(angles_.size() * static_cast<std::size_t>(bins_), 0);
+    for (const double angle : angles_) {
+      normals_.emplace_back(std::cos(angle), std::sin(angle));
+    }
+  }
+
+  void vote(const WallPoint& p, int amount) {
+    for (std::size_t a = 0; a < normals_.size(); ++a) {
+      if (normals_[a].dot(p.normal) < std::cos(kVoteAngle)) continue;
+      votes_[a * static_cast<std::size_t>(bins_) +
+             static_cast<std::size_t>(binOf(normals_[a].dot(p.position)))] += amount;
+    }
+  }
+
+  struct Peak {
+    std::size_t angle = 0;
+    int bin = 0;
+    int votes = 0;
+  };
+
+  // The window with most votes. What was struck out does not count.
+  Peak strongest() const {
+    Peak best;
+    for (std::size_t a = 0; a < angles_.size(); ++a) {
+      const int* row = votes_.data() + a * static_cast<std::size_t>(bins_);
+      int sum = 0;
+      for (int b = 0; b < bins_; ++b) {
+        sum += row[b];
+        if (b >= window_) sum -= row[b - window_];
+        if (sum > best.votes && !struckOut(a, b - window_ / 2)) best = {a, b - window_ / 2, sum};
+      }
+    }
+    return best;
+  }
+
+  void strikeOut(const Peak& peak) { struck_.push_back(peak); }
+
+  WallLine lineAt(const Peak& peak) const {
+    // The mean offset of the window's votes, not its middle.
+    const int* row = votes_.data() + peak.angle * static_cast<std::size_t>(bins_);
+    double sum = 0.0;
+    double weight = 0.0;
+    for (int b = peak.bin - window_ / 2; b <= peak.bin + window_ / 2; ++b) {
+      if (b < 0 || b >= bins_ || row[b] <= 0) continue;
+      sum += row[b] * (low_ + (b + 0.5) * bin_);
+      weight += row[b];
+    }
+    WallLine line;
+    line.normal = normals_[peak.angle];
+    line.offset = weight > 0.0 ? sum / weight : low_ + (peak.bin + 0.5) * bin_;
+    return line;
+  }
+
+ private:
+  int binOf(double offset) const {
+    return std::clamp(static_cast<int>((offset - low_) / bin_), 0, bins_ - 1);
+  }
+  bool struckOut(std::size_t angle, int bin) const {
+    return std::any_of(struck_.begin(), struck_.end(), [&](const Peak& p) {
+      return p.angle == angle && std::abs(p.bin - bin) <= 1;
+    });
+  }
+
+  std::vector<double> angles_;
+  std::vector<Eigen::Vector2d> normals_;
+  double bin_;
+  int window_;
+  double low_ = 0.0;
+  int bins_ = 0;
+  std::vector<int> votes_;
+  std::vector<Peak> struck_;
+};
+
+std::vector<int> candidatesFor(const std::vector<WallPoint>& points, const std::vector<char>& free,
+                               const WallLine& line, double gate) {
+  std::vector<int> candidates;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (free[i] != 0 && std::abs(line.across(points[i].position)) < gate &&
+        line.normal.dot(points[i].normal) >= std::cos(kVoteAngle)) {
+      candidates.push_back(static_cast<int>(i));
+    }
+  }
+  return candidates;
+}
+
+// One greedy pass: strongest line, its support, take its points away, again.
+void extractGreedily(const std::vector<WallPoint>& points, const WallScale& scale,
+                     const WallLineOptions& options, bool free_direction,
+                     std::vector<double> angles, std::vector<char>& free,
+                     std::vector<WallLine>& lines) {
+  VoteTable table(points, std::move(angles), scale.noise * (free_direction ? kFreeBin : kLockedBin),
+                  free_direction ? kFreeWindow : kLockedWindow);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (free[i] != 0) table.vote(points[i], 1);
+  }
+  SupportOptions support_options;
+  support_options.fit_direction = free_direction;
+  const double least_votes = std::max(10.0, kMinVotes * options.min_area * scale.density);
+  // A first guess is off by up to half a degree: over half the extent that is the gate.
+  for (int failures = 0; failures < kMaxFailures && static_cast<int>(lines.size()) < kMaxLines;) {
+    const VoteTable::Peak peak = table.strongest();
+    if (peak.votes < least_votes) return;
+    WallLine line = table.lineAt(peak);
+    const std::vector<int> candidates = candidatesFor(points, free, line, 12.0 * scale.noise);
+    const std::vector<int> support = fitToSupport(points, candidates, scale, support_options, line);
+    if (support.empty() || line.support_area < options.min_area) {
+      table.strikeOut(peak);
+      ++failures;
+      continue;
+    }
+    failures = 0;
+    for (const int i : support) {
+      free[static_cast<std::size_t>(i)] = 0;
+      table.vote(points[static_cast<std::size_t>(i)], -1);
+    }
+    lines.push_back(std::move(line));
+  }
+}
+
+// Directions modulo 180 degrees, as angles in [0, pi).
+std::vector<double> directionsOf(const std::vector<WallLine>& lines) {
+  struct Group {
+    double angle = 0.0;
+    double weight = 0.0;  // 1 / variance
+    double area = 0.0;
+    int lines = 0;
+  };
+  std::vector<Group> groups;
+  double total = 0.0;
+  for (const WallLine& line : lines) {  // strongest first
+    double angle = std::atan2(line.normal.y(), line.normal.x());
+    if (angle < 0.0) angle += M_PI;
+    const double deviation = std::max(line.angle_deviation, 1e-5);
+    const double weight = 1.0 / (deviation * deviation);
+    total += line.support_area;
+    bool found = false;
+    for (Group& group : groups) {
+      double turn = std::remainder(angle - group.angle, M_PI);
+      const double gap = std::max(
+          kSameAngle, kAngleDeviations * std::hypot(deviation, 1.0 / std::sqrt(group.weight)));
+      if (std::abs(turn) > gap) continue;
+      group.angle += turn * weight / (group.weight + weight);
+      group.weight += weight;
+      group.area += line.support_area;
+      ++group.lines;
+      found = true;
+      break;
+    }
+    if (!found) groups.push_back({angle, weight, line.support_area, 1});
+  }
+  std::vector<double> angles;
+  for (const Group& group : groups) {
+    if (group.area < kMinDirectionShare * total && group.lines < 2) continue;
+    const bool outweighed = std::any_of(groups.begin(), groups.end(), [&](const Group& other) {
+      return std::abs(std::remainder(other.angle - group.angle, M_PI)) < kNearDirection &&
+             other.area > kOutweighs * group.area;
+    });
+    if (!outweighed) angles.push_back(group.angle);
+  }
+  std::sort(angles.begin(), angles.end());
+  return angles;
+}
+
+// Two lines over the same support are one wall: window panes, the tails of the noise, a lean.
+bool duplicates(const WallLine& weak, const WallLine& strong, const WallScale& scale) {
+  if (strong.normal.dot(weak.normal) < std::cos(kNearDirection)) return false;
+  const auto off = [&](double s) {
+    return std::abs(strong.across(weak.offset * weak.normal + s * weak.tangent()));
+  };
+  const double far = std::max(off(weak.s_min), off(weak.s_max));
+  if (far < 1.0 * scale.noise) return true;
+  const auto overlap = [](double a0, double a1, double b0, double b1) {
+    return std::max(0.0, std::min(a1, b1) - std::max(a0, b0));
+  };
+  const double shared = overlap(weak.s_min, weak.s_max, strong.s_min, strong.s_max) *
+                        overlap(weak.z_min, weak.z_max, strong.z_min, strong.z_max);
+  const double own = (weak.s_max - weak.s_min) * (weak.z_max - weak.z_min);
+  return far < 4.0 * scale.noise && shared > 0.5 * own &&
+         static_cast<double>(weak.support) < 0.7 * static_cast<double>(strong.support);
+}
+
+}  // namespace
+
+std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const WallScale& scale,
+                                    const WallLineOptions& options) {
+  std::vector<double> all_around(kFreeAngles);
+  for (int a = 0; a < kFreeAngles; ++a)
+    all_around[static_cast<std::size_t>(a)] = 2.0 * M_PI * a / kFreeAngles;
+
+  std::vector<char> free(points.size(), 1);
+  std::vector<WallLine> free_lines;
+  extractGreedily(points, scale, options, true, all_around, free, free_lines);
+
+  std::vector<double> oriented;
+  for (const double angle : directionsOf(free_lines)) {
+    oriented.push_back(angle);
+    oriented.push_back(angle + M_PI);
+  }
+  std::fill(free.begin(), free.end(), 1);
+  std::vector<WallLine> lines;
+  if (!oriented.empty()) {
+    extractGreedily(points, scale, options, false, oriented, free, lines);
+  }
+  extractGreedily(points, scale, options, true, all_around, free, lines);
+
+  std::stable_sort(lines.begin(), lines.end(),
+                   [](const WallLine& a, const WallLine& b) { return a.support > b.support; });
+  std::vector<WallLine> distinct;
+  for (const WallLine& line : lines) {
+    const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const WallLine& strong) {
+      return duplicates(line, strong, scale);
+    });
+    if (!known) distinct.push_back(line);
+  }
+  return distinct;
+}
+
+}  // namespace storey::detail
