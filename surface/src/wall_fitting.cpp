@@ -13,6 +13,9 @@ constexpr int kRounds = 3;          // assignment and fit settle in two
 constexpr double kGate = 4.0;       // noise deviations: points further off are of another wall
 constexpr double kEndMargin = 3.0;  // noise deviations: at corners points mix
 constexpr double kTukey = 6.0;      // noise deviations
+// Tukey's weights w of k = 6 shrink the scatter of a normal distribution:
+// sqrt(E[w u^2] / E[w]) = sqrt((1 - 6 / k^2 + 15 / k^4) / (1 - 2 / k^2 + 3 / k^4)).
+constexpr double kTukeyScatter = 0.94468;
 constexpr double kMaxAngleDeviation = 0.01;  // rad; a wall that tells less keeps its direction
 constexpr double kSameDirection = 3.5;       // standard deviations
 constexpr double kMinTurn = 0.03;            // rad; lines that cross at less have no stable corner
@@ -31,7 +34,7 @@ struct Wall {
   double residual(double slope) const {
     const double mean = d / w;
     const double variance = (dd - d * mean - slope * (sd - s * mean)) / w;
-    return std::sqrt(std::max(0.0, variance));
+    return std::sqrt(std::max(0.0, variance)) / kTukeyScatter;
   }
   void clear() { w = s = d = ss = sd = dd = 0.0, support = 0; }
   void add(const Eigen::Vector2d& point, double scale) {

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <storey/surface/floorplan_fitting.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "stacks.h"
+#include "wall_points.h"
+
+namespace {
+
+using namespace storey;
+using namespace storey::test;
+
+constexpr double kSigma = 0.1;
+
+// Gives every edge of every layer a wall id of its own.
+std::vector<FloorplanLayer> named(std::vector<FloorplanLayer> layers) {
+  int next = 0;
+  for (FloorplanLayer& l : layers) {
+    for (FloorplanComponent& component : l.plan.components) {
+      for (FloorplanEdge& edge : component.outer.edges) edge.wall = next++;
+      for (FloorplanRing& hole : component.holes) {
+        for (FloorplanEdge& edge : hole.edges) edge.wall = next++;
+      }
+    }
+  }
+  return layers;
+}
+
+// Every corner moved by as much as the lines of slices scatter.
+std::vector<FloorplanLayer> disturbed(std::vector<FloorplanLayer> layers, double by,
+                                      std::mt19937& random) {
+  std::uniform_real_distribution<double> shift(-by, by);
+  for (FloorplanLayer& l : layers) {
+    for (Eigen::Vector2d& v : l.plan.components[0].outer.vertices) {
+      v += Eigen::Vector2d(shift(random), shift(random));
+    }
+  }
+  return layers;
+}
+
+FitOptions options() {
+  FitOptions result;
+  result.noise = kSigma;
+  result.max_shift = 1.0;
+  return result;
+}
+
+// Distance of the fitted line from the middle of the true edge, outwards.
+double errorAtMiddle(const WallFit& fit, const FloorplanRing& truth, std::size_t edge) {
+  const Eigen::Vector2d middle =
+      0.5 * (truth.vertices[edge] + truth.vertices[(edge + 1) % truth.size()]);
+  return fit.offset - fit.normal.dot(middle);
+}
+
+const std::vector<FloorplanLayer>& lShape() {
+  static const std::vector<FloorplanLayer> layers =
+      named({layer(0, 10, {ring({{0, 0}, {20, 0}, {20, 8}, {9, 8}, {9, 15}, {0, 15}})})});
+  return layers;
+}
+
+TEST(FitWalls, IsAsAccurateAsTheNumberOfPointsAllows) {
+  // Each line within 4 sigma / sqrt(n), n its points; over 40 draws of 6 walls the mean square of
+  // the error in units of sigma / sqrt(n) is 1 up to 4 sqrt(2 / 240), and to what Tukey's weights
+  // (98 % efficient) and the 3 rounds cost: 10 %.
+  double squares = 0.0;
+  double residuals = 0.0;
+  int count = 0;
+  for (unsigned draw = 0; draw < 40; ++draw) {
+    WallSampler sampler(kSigma, draw);
+    FitPoints points;
+    sampler.addLayers(lShape(), 5.0, points);
+    auto layers = disturbed(lShape(), kSigma, sampler.random());
+    FitOptions separate = options();
+    separate.share_directions = false;
+    const auto fits = fitWalls(layers, points, separate);
+    ASSERT_EQ(fits.size(), 6U);
+    for (const auto& [wall, fit] : fits) {
+      ASSERT_GT(fit.support, 100U);
+      const double error =
+          errorAtMiddle(fit, lShape()[0].plan.components[0].outer, static_cast<std::size_t>(wall)) *
+          std::sqrt(static_cast<double>(fit.support)) / kSigma;
+      EXPECT_LT(std::abs(error), 4.5) << "draw " << draw << " wall " << wall;
+      squares += error * error;
+      ++count;
+      EXPECT_NEAR(fit.residual, kSigma,
+                  4.5 * kSigma / std::sqrt(2.0 * static_cast<double>(fit.support)));
+      residuals += fit.residual / kSigma;
+    }
+    for (std::size_t i = 0; i < 6; ++i) {
+      // Two lines, each off by up to 4 sigma / sqrt(n) at its end (twice that of its middle).
+      const double corner = (layers[0].plan.components[0].outer.vertices[i] -
+                             lShape()[0].plan.components[0].outer.vertices[i])
+                                .norm();
+      EXPECT_LT(corner, 16.0 * kSigma / std::sqrt(300.0));
+    }
+  }
+  EXPECT_LT(squares / count, 1.1 * (1.0 + 4.0 * std::sqrt(2.0 / count)));
+  EXPECT_GT(squares / count, 1.0 - 4.0 * std::sqrt(2.0 / count));
+  // The points beyond the gate of 4 sigma lack: 0.1 % of the variance; two parameters of 200
+  // points.
+  EXPECT_NEAR(residuals / count, 1.0, 0.01);
+}
+
+TEST(FitWalls, ParallelWallsShareOneDirection) {
+  double shared_squares = 0.0;
+  double separate_squares = 0.0;
+  for (unsigned draw = 0; draw < 20; ++draw) {
+    WallSampler sampler(kSigma, 100 + draw);
+    FitPoints points;
+    sampler.addLayers(lShape(), 2.0, points);
+    for (const bool share : {true, false}) {
+      auto layers = disturbed(lShape(), kSigma, sampler.random());
+      FitOptions chosen = options();
+      chosen.share_directions = share;
+      const auto fits = fitWalls(layers, points, chosen);
+      for (const auto& [wall, fit] : fits) {
+        const auto& outer = lShape()[0].plan.components[0].outer;
+        const auto i = static_cast<std::size_t>(wall);
+        const Eigen::Vector2d along = outer.vertices[(i + 1) % 6] - outer.vertices[i];
+        const double turn = fit.normal.dot(along.normalized());
+        (share ? shared_squares : separate_squares) += turn * turn;
+      }
+      if (share) {
+        // Walls 0, 2 and 4 run along x, 1, 3 and 5 along y: each three agree to the last digits.
+        for (const auto& [a, b] : {std::pair{0, 2}, {0, 4}, {1, 3}, {1, 5}}) {
+          EXPECT_LT(std::abs(fits.at(a).normal.dot(
+                        Eigen::Vector2d(-fits.at(b).normal.y(), fits.at(b).normal.x()))),
+                    1e-12);
+        }
+      }
+    }
+  }
+  // Of three walls the shortest gain most; on the whole the square falls to less than half.
+  EXPECT_LT(shared_squares, 0.5 * separate_squares);
+}
+
+TEST(FitWalls, WallsOfDifferentDirectionsDoNotShare) {
+  // 3 degrees between the lower and the upper wall: 0.05 rad against a deviation of
+  // sqrt(12) 0.1 / (20 sqrt 1000) = 0.0005.
+  const double rise = 20.0 * std::tan(3.0 * M_PI / 180.0);
+  const auto truth = named({layer(0, 10, {ring({{0, 0}, {20, 0}, {20, 10}, {0, 10 + rise}})})});
+  WallSampler sampler(kSigma, 7);
+  FitPoints points;
+  sampler.addLayers(truth, 5.0, points);
+  auto layers = disturbed(truth, kSigma, sampler.random());
+  const auto fits = fitWalls(layers, points, options());
+  const double turn = std::acos(-fits.at(0).normal.dot(fits.at(2).normal));
+  EXPECT_NEAR(turn, 3.0 * M_PI / 180.0, 0.003);
+}
+
+TEST(FitWalls, OutliersDoNotMoveWalls) {
+  WallSampler sampler(kSigma, 8);
+  FitPoints points;
+  sampler.addLayers(lShape(), 5.0, points);
+  std::uniform_real_distribution<double> x(-5.0, 25.0);
+  std::uniform_real_distribution<double> z(0.0, 10.0);
+  const std::size_t outliers = points.positions.size() / 4;  // 20 % of all
+  for (std::size_t i = 0; i < outliers; ++i) {
+    points.positions.emplace_back(static_cast<float>(x(sampler.random())),
+                                  static_cast<float>(x(sampler.random())),
+                                  static_cast<float>(z(sampler.random())));
+    points.normals.emplace_back(0.0F, 0.0F, 0.0F);  // unknown: they fit every wall
+  }
+  auto layers = disturbed(lShape(), kSigma, sampler.random());
+  const auto fits = fitWalls(layers, points, options());
+  for (const auto& [wall, fit] : fits) {
+    EXPECT_LT(std::abs(errorAtMiddle(fit, lShape()[0].plan.components[0].outer,
+                                     static_cast<std::size_t>(wall))),
+              4.0 * kSigma / std::sqrt(static_cast<double>(fit.support)));
+  }
+}
+
+TEST(FitWalls, ParallelWallsTenDeviationsApartAreNotMixed) {
+  const auto truth = named({layer(
+      0, 10, {ring({{0, 0}, {10, 0}, {10, 10 * kSigma}, {20, 10 * kSigma}, {20, 12}, {0, 12}})})});
+  WallSampler sampler(kSigma, 9);
+  FitPoints points;
+  sampler.addLayers(truth, 5.0, points);
+  auto layers = disturbed(truth, kSigma, sampler.random());
+  const auto fits = fitWalls(layers, points, options());
+  for (const int wall : {0, 2}) {
+    EXPECT_LT(std::abs(errorAtMiddle(fits.at(wall), truth[0].plan.components[0].outer,
+                                     static_cast<std::size_t>(wall))),
+              4.0 * kSigma / std::sqrt(static_cast<double>(fits.at(wall).support)));
+  }
+}
+
+TEST(FitWalls, FacesOfAThinWallAreToldApartByTheirNormals) {
+  // A wall 3 sigma thick: outer face at 0, that of a courtyard at 3 sigma.
+  auto truth = std::vector<FloorplanLayer>{layer(0, 10, {rectangle(0, 0, 20, 20)})};
+  truth[0].plan.components[0].holes.push_back(
+      reversed(rectangle(3 * kSigma, 3 * kSigma, 20 - 3 * kSigma, 20 - 3 * kSigma)));
+  truth = named(truth);
+  WallSampler sampler(kSigma, 10);
+  FitPoints points;
+  sampler.addLayers(truth, 5.0, points);
+  auto layers = truth;
+  const auto fits = fitWalls(layers, points, options());
+  const FloorplanComponent& component = truth[0].plan.components[0];
+  for (int wall = 0; wall < 8; ++wall) {
+    const FloorplanRing& r = wall < 4 ? component.outer : component.holes[0];
+    EXPECT_LT(std::abs(errorAtMiddle(fits.at(wall), r, static_cast<std::size_t>(wall % 4))),
+              4.0 * kSigma / std::sqrt(static_cast<double>(fits.at(wall).support)));
+  }
+}
+
+TEST(FitWalls, AWallIsFittedToThePointsOfAllItsLayers) {
+  auto truth =
+      named({layer(0, 6, {rectangle(0, 0, 20, 10)}), layer(6, 9, {rectangle(0, 0, 8, 10)})});
+  for (const std::size_t shared : {0U, 2U, 3U}) {  // bottom, top and left go on
+    truth[1].plan.components[0].outer.edges[shared].wall =
+        truth[0].plan.components[0].outer.edges[shared].wall;
+  }
+  WallSampler sampler(kSigma, 11);
+  FitPoints below;
+  sampler.addLayers({truth[0]}, 5.0, below);
+  FitPoints both = below;
+  sampler.addLayers({truth[1]}, 5.0, both);
+  auto layers = truth;
+  const std::size_t support_below = fitWalls(layers, below, options()).at(3).support;
+  layers = truth;
+  const auto fits = fitWalls(layers, both, options());
+  EXPECT_EQ(fits.size(), 5U);
+  EXPECT_GT(fits.at(3).support, support_below + 100);
+  EXPECT_EQ(layers[0].plan.components[0].outer.vertices[0],
+            layers[1].plan.components[0].outer.vertices[0]);
+}
+
+TEST(FitWalls, AWallWithoutPointsStays) {
+  WallSampler sampler(kSigma, 12);
+  FitPoints points;
+  auto truth = named({layer(0, 10, {rectangle(0, 0, 20, 10)})});
+  const FloorplanRing outer = truth[0].plan.components[0].outer;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sampler.addWall(outer.vertices[i], outer.vertices[i + 1], 0, 10, 500, points);
+  }
+  auto layers = truth;
+  const auto fits = fitWalls(layers, points, options());
+  EXPECT_EQ(fits.at(3).support, 0U);
+  EXPECT_NEAR(fits.at(3).offset, 0.0, 1e-9);
+  EXPECT_LT((fits.at(3).normal - Eigen::Vector2d(-1, 0)).norm(), 1e-9);
+  EXPECT_NEAR(layers[0].plan.components[0].outer.vertices[0].x(), 0.0, 1e-9);
+}
+
+TEST(FitWalls, RoofPointsTakeNoPart) {
+  WallSampler sampler(kSigma, 13);
+  FitPoints points;
+  const auto truth = named({layer(0, 3, {rectangle(0, 0, 20, 10)})});
+  sampler.addLayers(truth, 20.0, points);
+  auto layers = truth;
+  const auto without = fitWalls(layers, points, options());
+  // A strip of roof along the lower wall, its normals 40 degrees off the vertical.
+  for (int i = 0; i < 2000; ++i) {
+    points.positions.emplace_back(0.01F * static_cast<float>(i), 0.2F, 2.9F);
+    points.normals.emplace_back(0.0F, -std::sin(0.7F), std::cos(0.7F));
+  }
+  layers = truth;
+  const auto with = fitWalls(layers, points, options());
+  EXPECT_EQ(with.at(0).support, without.at(0).support);
+  EXPECT_EQ(with.at(0).offset, without.at(0).offset);
+}
+
+TEST(FitWalls, ARingThatWouldTurnAroundKeepsItsCornersAndLosesItsIds) {
+  // The points of the left wall lie right of those of the right wall.
+  auto layers = named({layer(0, 10, {rectangle(0, 0, 0.2, 10)})});
+  const FloorplanRing before = layers[0].plan.components[0].outer;
+  WallSampler sampler(0.01, 14);
+  FitPoints points;
+  sampler.addWall({0.25, 10}, {0.25, 0}, 0, 10, 1000, points);    // faces left
+  sampler.addWall({-0.05, 0}, {-0.05, 10}, 0, 10, 1000, points);  // faces right
+  fitWalls(layers, points, options());
+  const FloorplanRing& after = layers[0].plan.components[0].outer;
+  EXPECT_EQ(after.vertices, before.vertices);
+  for (const FloorplanEdge& edge : after.edges) EXPECT_EQ(edge.wall, -1);
+}
+
+TEST(FitWalls, TurnsAndMovesWithTheCloud) {
+  WallSampler sampler(kSigma, 15);
+  FitPoints points;
+  sampler.addLayers(lShape(), 5.0, points);
+  auto layers = lShape();
+  fitWalls(layers, points, options());
+  for (const double yaw : {0.7, 1.5707, 3.1, -2.0}) {
+    const Eigen::Vector2d shift(300.0, -200.0);
+    const Eigen::Rotation2Dd turn(yaw);
+    auto turned = lShape();
+    move(turned, 1.0, yaw, shift);
+    FitPoints there = points;
+    for (std::size_t i = 0; i < points.positions.size(); ++i) {
+      const Eigen::Vector2d p = turn * points.positions[i].head<2>().cast<double>().eval() + shift;
+      const Eigen::Vector2d n = turn * points.normals[i].head<2>().cast<double>().eval();
+      there.positions[i].head<2>() = p.cast<float>();
+      there.normals[i].head<2>() = n.cast<float>();
+    }
+    fitWalls(turned, there, options());
+    for (std::size_t i = 0; i < 6; ++i) {
+      // Floats at 300 are good to 3e-5; a point at a gate may fall to the other side.
+      EXPECT_LT((turned[0].plan.components[0].outer.vertices[i] -
+                 (turn * layers[0].plan.components[0].outer.vertices[i] + shift))
+                    .norm(),
+                1e-3);
+    }
+  }
+}
+
+TEST(FitWalls, BadOptionsAndPointsGiveNothingAndChangeNothing) {
+  WallSampler sampler(kSigma, 16);
+  FitPoints points;
+  sampler.addLayers(lShape(), 1.0, points);
+  for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    FitOptions wrong = options();
+    wrong.noise = bad;
+    auto layers = lShape();
+    EXPECT_TRUE(fitWalls(layers, points, wrong).empty());
+    EXPECT_EQ(layers[0].plan.components[0].outer.vertices,
+              lShape()[0].plan.components[0].outer.vertices);
+  }
+  points.normals.pop_back();
+  auto layers = lShape();
+  EXPECT_TRUE(fitWalls(layers, points, options()).empty());
+  layers.clear();
+  EXPECT_TRUE(fitWalls(layers, {}, options()).empty());
+}
+
+}  // namespace
