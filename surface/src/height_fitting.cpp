@@ -9,12 +9,14 @@
 namespace storey {
 namespace {
 
-constexpr double kGate = 4.0;        // noise deviations across the wall
-constexpr double kEndMargin = 3.0;   // noise deviations inside the ends of a stretch
-constexpr double kMinStretch = 6.0;  // noise deviations: shorter ends of walls tell nothing
-constexpr double kReference = 30.0;  // noise deviations of height that give the density
+constexpr double kGate = 4.0;         // noise deviations across the wall
+constexpr double kEndMargin = 3.0;    // noise deviations inside the ends of a stretch
+constexpr double kMinStretch = 6.0;   // noise deviations: shorter ends of walls tell nothing
+constexpr double kReference = 30.0;   // noise deviations of height that give the density
 constexpr double kOutliers = 0.0005;  // density off the wall, of that on it
-constexpr double kMinLayer = 3.0;    // noise deviations
+constexpr double kMixingGap = 8.0;    // noise deviations: gates of two walls, side by side
+constexpr double kSameSense = 0.7;    // cosine of 45 degrees
+constexpr double kMinLayer = 3.0;     // noise deviations
 constexpr std::size_t kMinPoints = 20;
 
 // Heights of the points of the walls that end, or start, at one level.
@@ -133,20 +135,60 @@ std::vector<LevelEvidence> makeLevels(const std::vector<FloorplanLayer>& layers,
   return levels;
 }
 
+// Whether a wall of the other layer runs so close beside the stretch that points of both mix.
+bool hasCloseNeighbor(const detail::WallStretch& stretch,
+                      const std::vector<detail::WallStretch>& others, double gap) {
+  return std::any_of(others.begin(), others.end(), [&](const detail::WallStretch& other) {
+    if (other.wall == stretch.wall || other.tangent.dot(stretch.tangent) < kSameSense) return false;
+    const double a = (other.start - stretch.start).dot(stretch.tangent);
+    const double b = a + other.length * other.tangent.dot(stretch.tangent);
+    return std::abs((other.start - stretch.start).dot(stretch.normal())) < gap &&
+           std::min(b, stretch.length) > std::max(a, 0.0);
+  });
+}
+
+// The walls that end and start at one level, and all walls around it.
+struct LevelWalls {
+  detail::EdgeIndex ends;
+  detail::EdgeIndex starts;
+  detail::EdgeIndex all;
+};
+
+LevelWalls wallsAt(const std::vector<detail::WallStretch>& below,
+                   const std::vector<detail::WallStretch>& above, double noise) {
+  std::vector<detail::WallStretch> ends = uncovered(below, above, kMinStretch * noise);
+  std::vector<detail::WallStretch> starts = uncovered(above, below, kMinStretch * noise);
+  const auto clear = [&](std::vector<detail::WallStretch> stretches,
+                         const std::vector<detail::WallStretch>& others) {
+    const auto mixed = [&](const detail::WallStretch& stretch) {
+      return hasCloseNeighbor(stretch, others, kMixingGap * noise);
+    };
+    stretches.erase(std::remove_if(stretches.begin(), stretches.end(), mixed), stretches.end());
+    return stretches;
+  };
+  const std::vector<detail::WallStretch> clear_ends = clear(ends, above);
+  const std::vector<detail::WallStretch> clear_starts = clear(starts, below);
+  if (!clear_ends.empty() || !clear_starts.empty()) {  // else the mixed ones are all there is
+    ends = clear_ends;
+    starts = clear_starts;
+  }
+  std::vector<detail::WallStretch> all = below;
+  all.insert(all.end(), above.begin(), above.end());
+  const double gate = kGate * noise;
+  return {detail::EdgeIndex(ends, gate), detail::EdgeIndex(starts, gate),
+          detail::EdgeIndex(all, gate)};
+}
+
 void collectHeights(const std::vector<FloorplanLayer>& layers, const FitPoints& points,
                     double noise, std::vector<LevelEvidence>& levels) {
   const std::size_t n = layers.size();
-  std::vector<detail::EdgeIndex> ends;
-  std::vector<detail::EdgeIndex> starts;
-  const double min_length = kMinStretch * noise;
+  std::vector<LevelWalls> walls;
   for (std::size_t k = 0; k <= n; ++k) {
-    const auto below =
-        k > 0 ? detail::stretchesOf(layers[k - 1].plan) : std::vector<detail::WallStretch>();
-    const auto above =
-        k < n ? detail::stretchesOf(layers[k].plan) : std::vector<detail::WallStretch>();
-    ends.emplace_back(uncovered(below, above, min_length), kGate * noise);
-    starts.emplace_back(uncovered(above, below, min_length), kGate * noise);
+    walls.push_back(wallsAt(
+        k > 0 ? detail::stretchesOf(layers[k - 1].plan) : std::vector<detail::WallStretch>(),
+        k < n ? detail::stretchesOf(layers[k].plan) : std::vector<detail::WallStretch>(), noise));
   }
+  const double margin = kEndMargin * noise;
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     const Eigen::Vector3d p = points.positions[i].cast<double>();
     const Eigen::Vector2d normal = points.normals[i].head<2>().cast<double>();
@@ -156,10 +198,14 @@ void collectHeights(const std::vector<FloorplanLayer>& layers, const FitPoints& 
                          [](const LevelEvidence& level, double z) { return level.high < z; });
     for (auto level = next; level != levels.end() && level->low <= p.z(); ++level) {
       if (p.z() > level->high) continue;
-      const auto k = static_cast<std::size_t>(level - levels.begin());
-      if (ends[k].nearest(p.head<2>(), normal, kEndMargin * noise) >= 0) {
+      const LevelWalls& at = walls[static_cast<std::size_t>(level - levels.begin())];
+      // A point tells of a wall's end only if no other wall is nearer.
+      const double any = at.all.distance(p.head<2>(), normal, 0.0) + 1e-9 * noise;
+      const double end = at.ends.distance(p.head<2>(), normal, margin);
+      const double start = at.starts.distance(p.head<2>(), normal, margin);
+      if (end <= any && end <= start) {
         level->ends.push_back(p.z());
-      } else if (starts[k].nearest(p.head<2>(), normal, kEndMargin * noise) >= 0) {
+      } else if (start <= any) {
         level->starts.push_back(p.z());
       }
     }

@@ -47,8 +47,10 @@ class LayerwiseFloorplanExtraction : public pcl::PCLBase<PointT> {
 
   /// Dominant directions; none (default): `DominantDirectionClustering` finds them in the input.
   void setDirections(const std::vector<Eigen::Vector3d>& directions) { directions_ = directions; }
-  /// The directions set, or found by the last `extract`.
-  const std::vector<Eigen::Vector3d>& getDirections() const { return directions_; }
+  /// The directions set; if none are, those found by the last `extract`.
+  const std::vector<Eigen::Vector3d>& getDirections() const {
+    return directions_.empty() ? used_directions_ : directions_;
+  }
 
   /// Standard deviation of the points across their walls; 0 (default): estimated from the input.
   void setNoise(double noise) { noise_ = noise; }
@@ -76,18 +78,24 @@ class LayerwiseFloorplanExtraction : public pcl::PCLBase<PointT> {
   unsigned int getNumberOfThreads() const { return threads_; }
 
   /// One layer a slice, bottom to top; the floorplan of a slice that gives none is empty.
-  /// \return false, after a PCL_ERROR, for no input, a bad parameter or no wall points
+  /// \return false, after a PCL_ERROR, for no input, a bad parameter, an index outside the cloud or
+  /// no wall points
   bool extract(std::vector<FloorplanLayer>& layers);
 
   /// What became of each slice in the last `extract`, parallel to its layers.
   const std::vector<SliceStages<PointT>>& getStages() const { return stages_; }
 
+ protected:
+  const char* getClassName() const { return "LayerwiseFloorplanExtraction"; }
+
  private:
+  bool parametersValid() const;
   bool prepare(std::vector<pcl::PointIndices>& slices);
   void processSlice(const pcl::PointIndices& slice, SliceStages<PointT>& stages) const;
   void labelAndRefine(SliceStages<PointT>& stages) const;
 
   std::vector<Eigen::Vector3d> directions_;
+  std::vector<Eigen::Vector3d> used_directions_;
   double noise_ = 0.0;
   double used_noise_ = 0.0;
   double thickness_ = 0.0;

@@ -28,9 +28,9 @@ namespace storey {
 /// both. The result is always valid: rings that cross are resolved by their winding number.
 ///
 /// Needs normals (those of the cloud itself, or `setInputNormals`) and uses x and y only. Points
-/// that are not finite are ignored. Regions come from `EdgeRegionGrowing`; without `setRegions` the
-/// class labels the points with the directions and grows the regions itself, and without
-/// `setDirections` it clusters the directions as well.
+/// that are not finite are ignored, as all are that are not among the indices. Regions come from
+/// `EdgeRegionGrowing`; without `setRegions` the class labels the points with the directions and
+/// grows the regions itself, and without `setDirections` it clusters the directions as well.
 ///
 /// \par Complexity O(points + s^3) for s segments. Deterministic.
 template <typename PointT, typename NormalT = PointT>
@@ -48,7 +48,7 @@ class SliceFloorplanExtraction : public pcl::PCLBase<PointT> {
   typename PointCloudN::ConstPtr getInputNormals() const { return normals_; }
 
   /// Edge regions and, parallel to them, the index of their direction; -1 if it has none.
-  /// Indices refer to the input cloud.
+  /// Indices refer to the input cloud; the regions take the place of `setIndices`.
   void setRegions(const std::vector<pcl::PointIndices>& regions, const std::vector<int>& labels) {
     regions_ = regions;
     region_labels_ = labels;
@@ -68,7 +68,10 @@ class SliceFloorplanExtraction : public pcl::PCLBase<PointT> {
   void setTolerance(double length) { tolerance_ = length; }
   double getTolerance() const { return tolerance_; }
 
-  /// Threshold t of Algorithm 1, the widest gap that is closed; 0 (default): no limit.
+  /// Threshold t of Algorithm 1: the greedy path goes on to a segment nearer than t, and what it
+  /// has gathered is then closed, however wide the last gap. The optimal cover charges a link
+  /// across more than t with both its segments' length, so that it is made only where leaving
+  /// walls out would cost more. 0 (default): no limit.
   void setMaxGap(double length) { max_gap_ = length; }
   double getMaxGap() const { return max_gap_; }
 
@@ -80,7 +83,9 @@ class SliceFloorplanExtraction : public pcl::PCLBase<PointT> {
   LinkingMethod getLinkingMethod() const { return method_; }
 
   /// Extracts the floorplan of the slice. False, with an empty floorplan and the reason in
-  /// `getFailure`, if no closed component was found.
+  /// `getFailure`, if no closed component was found; with a PCL_ERROR as well for no input, a bad
+  /// parameter, an index outside the cloud, or normals or labels that are not parallel to what
+  /// they belong to.
   bool extract(Floorplan& floorplan);
 
   /// Why the last `extract` failed; empty if it did not.
@@ -88,6 +93,9 @@ class SliceFloorplanExtraction : public pcl::PCLBase<PointT> {
 
   /// The line segments of the last `extract`.
   const std::vector<detail::LineSegment>& getSegments() const { return segments_; }
+
+ protected:
+  const char* getClassName() const { return "SliceFloorplanExtraction"; }
 
  private:
   bool fail(const std::string& reason);

@@ -5,27 +5,35 @@
 #include <storey/features/anisotropic_normal_estimation.h>
 #include <storey/features/detail/thread_count.h>
 #include <storey/filters/anisotropic_position_refinement.h>
-#include <storey/filters/cloud_scale.h>
+#include <storey/filters/detail/indices.h>
 #include <storey/filters/gravity_slicing.h>
+#include <storey/segmentation/detail/indexed_scale.h>
 #include <storey/segmentation/dominant_direction_clustering.h>
 #include <storey/segmentation/dominant_direction_labeling.h>
 #include <storey/segmentation/edge_region_growing.h>
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 
 namespace storey {
 
 template <typename PointT>
-bool LayerwiseFloorplanExtraction<PointT>::prepare(std::vector<pcl::PointIndices>& slices) {
-  if (!(noise_ >= 0.0) || !(thickness_ >= 0.0) || k_ < 3) {
-    PCL_ERROR(
-        "[storey::LayerwiseFloorplanExtraction] noise is %g, thickness %g, k %d; expected >= 0, "
-        ">= 0, >= 3.\n",
-        noise_, thickness_, k_);
+bool LayerwiseFloorplanExtraction<PointT>::parametersValid() const {
+  const auto isLength = [](double value) { return value >= 0.0 && std::isfinite(value); };
+  if (!isLength(noise_) || !isLength(thickness_) || k_ < 3) {
+    PCL_ERROR("[storey::%s] noise is %g, thickness %g, k %d; expected >= 0, >= 0, >= 3.\n",
+              getClassName(), noise_, thickness_, k_);
     return false;
   }
-  const CloudScale scale = noise_ > 0.0 ? CloudScale{noise_} : estimateCloudScale(*this->input_);
+  return detail::indicesInside(*this->indices_, this->input_->size(), getClassName());
+}
+
+template <typename PointT>
+bool LayerwiseFloorplanExtraction<PointT>::prepare(std::vector<pcl::PointIndices>& slices) {
+  if (!parametersValid()) return false;
+  const CloudScale scale =
+      noise_ > 0.0 ? CloudScale{noise_} : detail::scaleOfIndexed(*this->input_, *this->indices_);
   used_noise_ = std::max(scale.noise, detail::kSliceLeastNoise * scale.extent);
   GravitySlicing<PointT> slicing;
   slicing.setInputCloud(this->input_);
@@ -34,9 +42,10 @@ bool LayerwiseFloorplanExtraction<PointT>::prepare(std::vector<pcl::PointIndices
   slicing.extract(slices);
   used_thickness_ = slicing.getSliceThickness();
   if (slices.empty()) {
-    PCL_ERROR("[storey::LayerwiseFloorplanExtraction] no wall points.\n");
+    PCL_ERROR("[storey::%s] no wall points.\n", getClassName());
     return false;
   }
+  used_directions_ = directions_;
   if (directions_.empty()) {
     DominantDirectionClustering<PointT> clustering;
     clustering.setInputCloud(this->input_);
@@ -44,7 +53,7 @@ bool LayerwiseFloorplanExtraction<PointT>::prepare(std::vector<pcl::PointIndices
     clustering.setNumberOfThreads(threads_);
     std::vector<pcl::PointIndices> clusters;
     clustering.extract(clusters);
-    directions_ = clustering.getDirections();
+    used_directions_ = clustering.getDirections();
   }
   stages_.assign(slices.size(), {});
   for (std::size_t i = 0; i < slices.size(); ++i) {
@@ -59,7 +68,7 @@ void LayerwiseFloorplanExtraction<PointT>::labelAndRefine(SliceStages<PointT>& s
   const auto smoothed = pcl::make_shared<pcl::PointCloud<PointT>>(stages.smoothed);
   DominantDirectionLabeling<PointT> labeling;
   labeling.setInputCloud(smoothed);
-  labeling.setDirections(directions_);
+  labeling.setDirections(used_directions_);
   const auto labels = pcl::make_shared<pcl::PointCloud<pcl::Label>>();
   labeling.segment(*labels);
   // From here on the normal of a point is that of its label.
@@ -67,9 +76,9 @@ void LayerwiseFloorplanExtraction<PointT>::labelAndRefine(SliceStages<PointT>& s
   stages.labels.assign(smoothed->size(), -1);
   for (std::size_t i = 0; i < labels->size(); ++i) {
     const std::uint32_t label = (*labels)[i].label;
-    if (label >= directions_.size()) continue;
+    if (label >= used_directions_.size()) continue;
     stages.labels[i] = static_cast<int>(label);
-    (*labelled)[i].getNormalVector3fMap() = directions_[label].template cast<float>();
+    (*labelled)[i].getNormalVector3fMap() = used_directions_[label].template cast<float>();
   }
   EdgeRegionGrowing<PointT> growing;
   growing.setInputCloud(smoothed);
@@ -107,7 +116,7 @@ void LayerwiseFloorplanExtraction<PointT>::processSlice(const pcl::PointIndices&
   SliceFloorplanExtraction<PointT> extraction;
   extraction.setInputCloud(pcl::make_shared<pcl::PointCloud<PointT>>(stages.refined));
   extraction.setRegions(stages.regions, stages.region_labels);
-  extraction.setDirections(directions_);
+  extraction.setDirections(used_directions_);
   extraction.setNoise(used_noise_);
   extraction.setLinkingMethod(method_);
   extraction.extract(stages.floorplan);
@@ -129,6 +138,7 @@ bool LayerwiseFloorplanExtraction<PointT>::extract(std::vector<FloorplanLayer>& 
   layers.clear();
   stages_.clear();
   used_thickness_ = 0.0;
+  used_directions_.clear();
   if (!this->initCompute()) return false;
   std::vector<pcl::PointIndices> slices;
   const bool prepared = prepare(slices);
@@ -137,7 +147,12 @@ bool LayerwiseFloorplanExtraction<PointT>::extract(std::vector<FloorplanLayer>& 
 #pragma omp parallel for num_threads(detail::threadCount(threads_)) schedule(dynamic, 1)
     for (std::ptrdiff_t i = 0; i < count; ++i) {
       const auto s = static_cast<std::size_t>(i);
-      processSlice(slices[s], stages_[s]);
+      try {  // nothing may leave the parallel region; a slice that fails is skipped
+        processSlice(slices[s], stages_[s]);
+      } catch (const std::exception& error) {
+        stages_[s].floorplan = {};
+        stages_[s].failure = error.what();
+      }
     }
     for (const SliceStages<PointT>& stages : stages_) {
       layers.push_back({stages.z_min, stages.z_max, stages.floorplan});

@@ -3,7 +3,8 @@
 
 #include <pcl/common/point_tests.h>
 #include <pcl/console/print.h>
-#include <storey/filters/cloud_scale.h>
+#include <storey/filters/detail/indices.h>
+#include <storey/segmentation/detail/indexed_scale.h>
 #include <storey/segmentation/dominant_direction_clustering.h>
 #include <storey/segmentation/dominant_direction_labeling.h>
 #include <storey/segmentation/edge_region_growing.h>
@@ -35,32 +36,26 @@ template <typename PointT, typename NormalT>
 bool SliceFloorplanExtraction<PointT, NormalT>::parametersValid() const {
   for (const double value : {noise_, tolerance_, max_gap_, min_area_}) {
     if (!(value >= 0.0) || std::isinf(value)) {
-      PCL_ERROR("[storey::SliceFloorplanExtraction] a length or area is %g, expected >= 0.\n",
+      PCL_ERROR("[storey::%s] a length or area is %g, expected finite and >= 0.\n", getClassName(),
                 value);
       return false;
     }
   }
   if (normals_ && normals_->size() != this->input_->size()) {
-    PCL_ERROR("[storey::SliceFloorplanExtraction] %zu normals for %zu points.\n", normals_->size(),
+    PCL_ERROR("[storey::%s] %zu normals for %zu points.\n", getClassName(), normals_->size(),
               this->input_->size());
     return false;
   }
   if (has_regions_ && region_labels_.size() != regions_.size()) {
-    PCL_ERROR("[storey::SliceFloorplanExtraction] %zu labels for %zu regions.\n",
-              region_labels_.size(), regions_.size());
+    PCL_ERROR("[storey::%s] %zu labels for %zu regions.\n", getClassName(), region_labels_.size(),
+              regions_.size());
     return false;
   }
-  const auto size = static_cast<pcl::index_t>(this->input_->size());
-  for (const pcl::PointIndices& region : regions_) {
-    for (const pcl::index_t i : region.indices) {
-      if (i < 0 || i >= size) {
-        PCL_ERROR("[storey::SliceFloorplanExtraction] index %d of a region is outside the cloud.\n",
-                  static_cast<int>(i));
-        return false;
-      }
-    }
-  }
-  return true;
+  const std::size_t size = this->input_->size();
+  return detail::indicesInside(*this->indices_, size, getClassName()) &&
+         std::all_of(regions_.begin(), regions_.end(), [&](const pcl::PointIndices& region) {
+           return detail::indicesInside(region.indices, size, getClassName());
+         });
 }
 
 template <typename PointT, typename NormalT>
@@ -167,7 +162,8 @@ bool SliceFloorplanExtraction<PointT, NormalT>::extract(Floorplan& floorplan) {
     this->deinitCompute();
     return fail("bad parameter");
   }
-  const CloudScale scale = noise_ > 0.0 ? CloudScale{noise_} : estimateCloudScale(*this->input_);
+  const CloudScale scale =
+      noise_ > 0.0 ? CloudScale{noise_} : detail::scaleOfIndexed(*this->input_, *this->indices_);
   // A perfect cloud has no noise, but the tolerances must not be zero.
   const double noise = std::max(scale.noise, detail::kSliceLeastNoise * scale.extent);
   const bool own_regions = !has_regions_;

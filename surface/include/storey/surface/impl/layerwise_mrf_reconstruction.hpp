@@ -5,7 +5,7 @@
 #include <pcl/common/point_tests.h>
 #include <pcl/console/print.h>
 #include <pcl/conversions.h>
-#include <storey/filters/cloud_scale.h>
+#include <storey/filters/detail/indices.h>
 #include <storey/segmentation/building_floorplan_extraction.h>
 #include <storey/surface/mesh_export.h>
 
@@ -49,14 +49,25 @@ bool LayerwiseMRFReconstruction<PointT>::parametersValid() const {
       return false;
     }
   }
-  return true;
+  if (!detail::layersAscend(floorplans_) || !detail::layersAscend(blocks_)) {
+    PCL_ERROR("[storey::%s] a floorplan has no height, or begins below the end of the one before.\n",
+              getClassName().c_str());
+    return false;
+  }
+  return detail::indicesInside(*this->indices_, this->input_->size(), getClassName().c_str());
 }
 
 template <typename PointT>
 bool LayerwiseMRFReconstruction<PointT>::build() {
   result_ = {};
-  if (!this->initCompute() || !parametersValid()) return false;
-  const CloudScale scale = noise_ > 0.0 ? CloudScale{noise_} : estimateCloudScale(*this->input_);
+  if (!this->initCompute()) return false;
+  if (!parametersValid()) {
+    this->deinitCompute();
+    return false;
+  }
+  const CloudScale scale = noise_ > 0.0
+                               ? CloudScale{noise_}
+                               : detail::scaleOfIndexed(*this->input_, *this->indices_);
   LayerwiseModelOptions options;
   options.noise = std::max(scale.noise, detail::kBuildingLeastNoise * scale.extent);
   options.dominant = options_;
