@@ -5,6 +5,7 @@
 #include <storey/features/normal_side.h>
 #include <storey/features/outward_normal_orientation.h>
 #include <storey/features/pca_normals.h>
+#include <storey/filters/detail/wall_relief.h>
 #include <storey/filters/planar_confidence_filter.h>
 #include <storey/segmentation/dominant_direction_clustering.h>
 #include <storey/surface/layerwise_mrf_reconstruction.h>
@@ -25,8 +26,10 @@ constexpr double kLevelDeviations = 4.0;
 constexpr double kLevelFloor = 1e-4;  // rad, where the accuracy is not known
 // A building must have walls: below this share of points a model would be guesswork.
 constexpr double kMinWallShare = 0.10;
-constexpr double kMaxWallTilt = 0.61;  // sin(35 degrees) = 0.57; see GravitySlicing
-constexpr double kLeastNoise = 1e-5;   // of the extent, for clouds without any
+constexpr double kMaxWallTilt = 0.61;   // sin(35 degrees) = 0.57; see GravitySlicing
+constexpr double kReliefRadius = 0.05;  // of the extent: about a wall
+constexpr double kReliefRatio = 1.4;    // of the noise
+constexpr double kLeastNoise = 1e-5;    // of the extent, for clouds without any
 
 std::string format(const char* text, ...) __attribute__((format(printf, 1, 2)));
 std::string format(const char* text, ...) {
@@ -149,12 +152,27 @@ class Pipeline {
              "storey needs a cloud that shows the walls, from the ground or a drone");
     }
     result_.scale = estimateCloudScale(Cloud(*result_.cloud, walls));
-    result_.noise = options_.noise > 0.0
-                        ? options_.noise
-                        : std::max(result_.scale.noise, kLeastNoise * result_.scale.extent);
-    return format("noise %.3g, spacing %.3g, %.3g points per unit of wall, extent %.3g",
-                  result_.noise, result_.scale.spacing, result_.scale.density,
-                  result_.scale.extent);
+    result_.noise = options_.noise > 0.0 ? options_.noise : noiseOfWalls(walls);
+    return format(
+        "noise %.3g (walls %.3g), spacing %.3g, %.3g points per unit of wall, extent %.3g",
+        result_.scale.noise, result_.noise, result_.scale.spacing, result_.scale.density,
+        result_.scale.extent);
+  }
+
+  // Later stages ask how far points lie off their wall: the relief of the wall, if that is clearly
+  // more than the noise.
+  double noiseOfWalls(const pcl::Indices& walls) const {
+    std::vector<Eigen::Vector3f> positions;
+    std::vector<Eigen::Vector3f> normals;
+    for (const pcl::index_t i : walls) {
+      const Point& p = (*result_.cloud)[static_cast<std::size_t>(i)];
+      positions.push_back(p.getVector3fMap());
+      normals.push_back(p.getNormalVector3fMap());
+    }
+    const double noise = std::max(result_.scale.noise, kLeastNoise * result_.scale.extent);
+    const double relief =
+        detail::estimateWallRelief(positions, normals, kReliefRadius * result_.scale.extent, noise);
+    return relief > kReliefRatio * noise ? relief : noise;
   }
 
   std::string filterPlanar() {

@@ -47,12 +47,13 @@ class BuildingFloorplanExtraction : public pcl::PCLBase<PointT> {
   void setDensity(double density) { density_ = density; }
   double getDensity() const { return density_; }
 
-  /// Least supported area of a wall; 0 (default): (20 noise)^2.
+  /// Least supported area of a wall; 0 (default): the larger of (20 noise)^2 and (extent / 40)^2,
+  /// the extent being that of the indexed points.
   void setMinWallArea(double square_length) { min_wall_area_ = square_length; }
   double getMinWallArea() const { return min_wall_area_; }
 
-  /// K: the wall area that one more block must explain; 0 (default): 500 noise^2 and 0.2 % of the
-  /// area of all walls found.
+  /// K: the wall area that one more block must explain; 0 (default): 500 noise^2 and 1 % of the area
+  /// of all walls found.
   void setBlockCost(double square_length) { block_cost_ = square_length; }
   double getBlockCost() const { return block_cost_; }
 

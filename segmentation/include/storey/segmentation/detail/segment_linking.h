@@ -34,6 +34,11 @@ struct LineSegment {
 LineSegment fitSegment(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& outward,
                        double prior_angle);
 
+/// `fitSegment` without the points further off than 3 deviations (`noise`, or the median scatter if
+/// that is more): near a corner some points have the label of the other wall.
+LineSegment fitTrimmedSegment(const std::vector<Eigen::Vector2d>& points,
+                              const Eigen::Vector2d& outward, double prior_angle, double noise);
+
 enum class LinkingMethod {
   Optimal,  ///< the cycle cover of all segments with the least length of missing wall
   Greedy,   ///< Algorithm 1: from the longest free segment always on to the nearest one

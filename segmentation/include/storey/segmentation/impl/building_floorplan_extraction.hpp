@@ -15,8 +15,22 @@ namespace detail {
 constexpr double kWallMaxNormalZ = 0.57357644;  // sin(35 degrees), as GravitySlicing
 constexpr double kLevelMinNormalZ = 0.9;        // cos(25 degrees)
 constexpr double kMinWallSideInNoise = 20.0;
+constexpr double kMinWallSideInExtent = 1.0 / 40.0;
 constexpr double kMinComponentSideInNoise = 10.0;
 constexpr double kBuildingLeastNoise = 1e-5;  // of the extent, where a cloud has none
+
+/// Diagonal of the box around the wall points.
+inline double extentOf(const std::vector<WallPoint>& points) {
+  if (points.empty()) return 0.0;
+  Eigen::Vector3d low(points[0].position.x(), points[0].position.y(), points[0].z);
+  Eigen::Vector3d high = low;
+  for (const WallPoint& p : points) {
+    const Eigen::Vector3d q(p.position.x(), p.position.y(), p.z);
+    low = low.cwiseMin(q);
+    high = high.cwiseMax(q);
+  }
+  return (high - low).norm();
+}
 
 }  // namespace detail
 
@@ -78,8 +92,12 @@ bool BuildingFloorplanExtraction<PointT>::extract(std::vector<FloorplanLayer>& b
   if (scale.noise > 0.0 && scale.density > 0.0) gatherPoints(walls, levels);
   const auto square = [&](double side) { return std::pow(side * scale.noise, 2); };
   detail::BuildingFloorplanOptions options;
-  options.min_wall_area =
-      min_wall_area_ > 0.0 ? min_wall_area_ : square(detail::kMinWallSideInNoise);
+  options.min_wall_area = min_wall_area_;
+  if (!(options.min_wall_area > 0.0)) {
+    options.min_wall_area =
+        std::max(square(detail::kMinWallSideInNoise),
+                 std::pow(detail::kMinWallSideInExtent * detail::extentOf(walls), 2));
+  }
   options.block_cost = block_cost_;
   options.min_area = square(detail::kMinComponentSideInNoise);
   result_ = detail::extractBuildingFloorplans(walls, levels, scale, options);

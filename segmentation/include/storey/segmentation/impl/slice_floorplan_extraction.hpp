@@ -115,7 +115,7 @@ void SliceFloorplanExtraction<PointT, NormalT>::fitSegments(double noise) {
     }
     if (points.size() < detail::kSliceMinPoints || !(outward.norm() > 0.0)) continue;
     const detail::LineSegment segment =
-        detail::fitSegment(points, outward.normalized(), detail::kSlicePriorAngle);
+        detail::fitTrimmedSegment(points, outward.normalized(), detail::kSlicePriorAngle, noise);
     if (segment.length() < detail::kSliceToleranceInNoise * noise ||
         segment.residual > detail::kSliceMaxResidual * noise) {
       continue;
