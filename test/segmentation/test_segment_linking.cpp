@@ -386,4 +386,22 @@ TEST(FitSegment, OfCopiesOfOnePointIsFinite) {
   EXPECT_TRUE(s.normal.allFinite());
 }
 
+TEST(FitTrimmedSegment, IsExactDespiteTheEndOfTheNextWall) {
+  for (const double noise : {0.0, 1e-6}) {
+    std::vector<Eigen::Vector2d> points;
+    for (int i = 0; i <= 200; ++i) points.emplace_back(0.05 * i, 2.0);
+    for (int i = 1; i <= 10; ++i) points.emplace_back(10.0, 2.0 + 0.05 * i);
+    const LineSegment s = detail::fitTrimmedSegment(points, {0.0, -1.0}, 0.02, noise);
+    EXPECT_LT((s.start - Eigen::Vector2d(0, 2)).norm(), 1e-9);
+    EXPECT_LT((s.end - Eigen::Vector2d(10, 2)).norm(), 1e-9);
+    EXPECT_EQ(s.support, 201U);
+    EXPECT_NEAR(s.residual, 0.0, 1e-9);
+  }
+}
+
+TEST(FitTrimmedSegment, OfNothingAndOfOnePointIsDefined) {
+  EXPECT_EQ(detail::fitTrimmedSegment({}, {1.0, 0.0}, 0.02, 0.1).support, 0U);
+  EXPECT_EQ(detail::fitTrimmedSegment({{1, 2}}, {1.0, 0.0}, 0.02, 0.1).length(), 0.0);
+}
+
 }  // namespace

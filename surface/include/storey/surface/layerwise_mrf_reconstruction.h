@@ -24,8 +24,9 @@ namespace storey {
 ///   dominant ones are chosen by (11)-(15), the paper's way.
 ///
 /// The result is `getModel`, a polyhedron with double vertices; the `pcl::PolygonMesh` is its
-/// triangulated export with the header of the input. Without an input, or where no outline
-/// is found, the output is empty after a PCL_ERROR. Deterministic.
+/// triangulated export with the header of the input. Without an input, with a bad parameter, an
+/// index outside the cloud or layers that do not ascend, or where no outline is found, the output
+/// is empty after a PCL_ERROR. Deterministic.
 /// \note Deviations, each with its reason: the energy is minimised exactly (`minimizeLayerEnergy`),
 /// the distance of floorplans knows their position (`FloorplanGrammar`), shapes and heights are
 /// fitted to the points again (`fitWalls`, `fitHeights`), the mesh is conforming

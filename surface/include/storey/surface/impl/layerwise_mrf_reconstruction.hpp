@@ -7,6 +7,7 @@
 #include <pcl/conversions.h>
 #include <storey/filters/detail/indices.h>
 #include <storey/segmentation/building_floorplan_extraction.h>
+#include <storey/segmentation/detail/indexed_scale.h>
 #include <storey/surface/mesh_export.h>
 
 #include <algorithm>
@@ -20,6 +21,18 @@ constexpr double kLetterToleranceInNoise = 1.5;
 // Two bins of the levels of `BuildingFloorplanExtraction`: how far its heights may be off.
 constexpr double kLevelErrorInNoise = 6.0;
 constexpr double kLevelErrorInHeight = 1.0 / 150.0;
+
+/// Whether every layer has a height, and none begins below the end of the one before it (but for
+/// rounding).
+inline bool layersAscend(const std::vector<FloorplanLayer>& layers) {
+  constexpr double kRounding = 1e-6;  // of a layer's height
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const double height = layers[i].z_max - layers[i].z_min;
+    if (!(height > 0.0) || std::isinf(height)) return false;
+    if (i > 0 && layers[i].z_min < layers[i - 1].z_max - kRounding * height) return false;
+  }
+  return true;
+}
 
 /// The finite points with their normals; a normal that is not finite becomes zero (unknown).
 template <typename PointT>
@@ -50,8 +63,9 @@ bool LayerwiseMRFReconstruction<PointT>::parametersValid() const {
     }
   }
   if (!detail::layersAscend(floorplans_) || !detail::layersAscend(blocks_)) {
-    PCL_ERROR("[storey::%s] a floorplan has no height, or begins below the end of the one before.\n",
-              getClassName().c_str());
+    PCL_ERROR(
+        "[storey::%s] a floorplan has no height, or begins below the end of the one before.\n",
+        getClassName().c_str());
     return false;
   }
   return detail::indicesInside(*this->indices_, this->input_->size(), getClassName().c_str());
@@ -65,9 +79,8 @@ bool LayerwiseMRFReconstruction<PointT>::build() {
     this->deinitCompute();
     return false;
   }
-  const CloudScale scale = noise_ > 0.0
-                               ? CloudScale{noise_}
-                               : detail::scaleOfIndexed(*this->input_, *this->indices_);
+  const CloudScale scale =
+      noise_ > 0.0 ? CloudScale{noise_} : detail::scaleOfIndexed(*this->input_, *this->indices_);
   LayerwiseModelOptions options;
   options.noise = std::max(scale.noise, detail::kBuildingLeastNoise * scale.extent);
   options.dominant = options_;
