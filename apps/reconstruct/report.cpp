@@ -33,6 +33,8 @@ Json describeParameters(const Options& o) {
           {"space", o.side == SpaceSide::Auto     ? "auto"
                     : o.side == SpaceSide::Inside ? "inside"
                                                   : "outside"},
+          {"method", o.method == Method::Paper ? "paper" : "building"},
+          {"block_cost", o.block_cost},
           {"noise", o.noise},
           {"kept_share", o.kept_share},
           {"slice_thickness", o.slice_thickness},
@@ -68,6 +70,22 @@ Json describeSlices(const Result& r) {
           {"count", r.stages.size()},
           {"with_floorplan", good},
           {"skipped", failures}};
+}
+
+Json describeBuilding(const Result& r) {
+  const detail::BuildingFloorplans& b = r.building;
+  Json walls = Json::array();
+  for (const detail::WallLine& wall : b.walls) {
+    walls.push_back({{"azimuth_deg", std::atan2(wall.normal.y(), wall.normal.x()) * kDegrees},
+                     {"offset", wall.offset},
+                     {"points", wall.support},
+                     {"area", wall.support_area},
+                     {"residual", wall.residual}});
+  }
+  return {{"hypothetical_lines", b.hypotheses.size()},
+          {"cells", b.plan.cells.size()},
+          {"layers", b.levels.empty() ? 0 : b.levels.size() - 1},
+          {"wall_lines", walls}};
 }
 
 Json describeLayers(const Result& r) {
@@ -155,7 +173,11 @@ void writeReport(const std::string& path, const Options& options, const Result& 
                      {"extent", r.scale.extent}};
   report["planar"] = {{"T_k", r.planar_threshold}, {"points", r.planar.size()}};
   report["directions"] = describeDirections(r);
-  report["slices"] = describeSlices(r);
+  if (options.method == Method::Paper) {
+    report["slices"] = describeSlices(r);
+  } else {
+    report["building"] = describeBuilding(r);
+  }
   report["layers"] = describeLayers(r);
   report["walls"] = describeWalls(r);
   report["model"] = describeModel(r);

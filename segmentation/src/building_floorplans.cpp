@@ -14,6 +14,7 @@ constexpr double kMargin = 0.15;             // of the box around the walls
 constexpr double kSameLine = 1.0;            // noise deviations: opposite walls on one line
 constexpr double kBlockNoise = 500.0;        // squared noise deviations
 constexpr double kBlockShare = 0.002;        // of the area of all walls
+constexpr double kShortEdge = 3.0;           // noise deviations
 constexpr double kCornerTolerance = 0.05;    // noise deviations
 
 std::vector<WallPoint> drawEvenly(const std::vector<WallPoint>& points) {
@@ -160,7 +161,8 @@ BuildingFloorplans extractBuildingFloorplans(const std::vector<WallPoint>& point
     FloorplanLayer layer;
     layer.z_min = evidence.heightOf(block.first_bin);
     layer.z_max = evidence.heightOf(block.last_bin);
-    layer.plan = outlineOf(result.plan, block, tolerance, options.min_area);
+    layer.plan =
+        outlineOf(result.plan, block, tolerance, kShortEdge * scale.noise, options.min_area);
     if (!layer.plan.empty()) result.layers.push_back(std::move(layer));
   }
   dropWeakParts(result.plan, options.keep_components, result);

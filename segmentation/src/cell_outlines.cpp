@@ -10,6 +10,7 @@
 namespace storey::detail {
 namespace {
 
+constexpr double kMinCrossing = 0.1;      // sine: flatter lines meet anywhere
 constexpr double kSeenShare = 1.0 / 3.0;  // of a wall that is not hypothetical
 
 // Gives points closer than the tolerance one number.
@@ -126,10 +127,42 @@ FloorplanRing toRing(const std::vector<const BoundaryEdge*>& chain, const Vertex
   return ring;
 }
 
+// Where three lines nearly meet, the cut may go round the wrong side of the small cell between
+// them: it is right to the noise, but has a corner too many. An edge shorter than `length` whose
+// neighbours then meet nearby goes.
+void dropShortEdges(double length, FloorplanRing& ring) {
+  const auto lineThrough = [&](std::size_t i, Eigen::Vector2d& normal, double& offset) {
+    const Eigen::Vector2d along = ring.vertices[(i + 1) % ring.size()] - ring.vertices[i];
+    normal = Eigen::Vector2d(along.y(), -along.x()).normalized();
+    offset = normal.dot(ring.vertices[i]);
+  };
+  for (std::size_t i = 0; i < ring.size() && ring.size() > 3;) {
+    const std::size_t n = ring.size();
+    const std::size_t next = (i + 1) % n;
+    Eigen::Vector2d n1, n2;
+    double d1 = 0.0, d2 = 0.0;
+    lineThrough((i + n - 1) % n, n1, d1);
+    lineThrough(next, n2, d2);
+    const double det = n1.x() * n2.y() - n1.y() * n2.x();
+    const Eigen::Vector2d meet((d1 * n2.y() - d2 * n1.y()) / det,
+                               (n1.x() * d2 - n2.x() * d1) / det);
+    const bool drops = (ring.vertices[next] - ring.vertices[i]).norm() < length &&
+                       std::abs(det) > kMinCrossing && (meet - ring.vertices[i]).norm() < length &&
+                       (meet - ring.vertices[next]).norm() < length;
+    if (!drops) {
+      ++i;
+      continue;
+    }
+    ring.vertices[next] = meet;
+    ring.vertices.erase(ring.vertices.begin() + static_cast<std::ptrdiff_t>(i));
+    ring.edges.erase(ring.edges.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
 }  // namespace
 
 Floorplan outlineOf(const LineArrangement& plan, const CellBlock& block, double tolerance,
-                    double min_area) {
+                    double short_edge, double min_area) {
   VertexNames names(tolerance);
   std::vector<BoundaryEdge> edges = boundaryOf(plan, block, names);
   std::multimap<int, BoundaryEdge*> starts;
@@ -144,6 +177,7 @@ Floorplan outlineOf(const LineArrangement& plan, const CellBlock& block, double 
     }
     if (chain.empty() || chain.back()->to != chain.front()->from) continue;
     FloorplanRing ring = toRing(chain, names);
+    dropShortEdges(short_edge, ring);
     if (ring.size() >= 3) rings.push_back(std::move(ring));
   }
   return assembleFloorplan(rings, min_area);

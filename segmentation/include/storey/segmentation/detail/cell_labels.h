@@ -52,7 +52,9 @@ std::vector<CellBlock> labelCells(const LineArrangement& plan, const WallEvidenc
 
 /// The outlines of the cells inside. `FloorplanEdge::wall` is 2 line + (0: outside is ahead of the
 /// line, 1: behind it); an edge of which less than a third is confirmed is hypothetical.
+/// \param tolerance corners nearer than this are one \param short_edge shorter edges go where their
+/// neighbours meet nearby \param min_area of a component or courtyard
 Floorplan outlineOf(const LineArrangement& plan, const CellBlock& block, double tolerance,
-                    double min_area);
+                    double short_edge, double min_area);
 
 }  // namespace storey::detail
