@@ -12,6 +12,11 @@
 
 #include <algorithm>
 #include <cmath>
+// The base class searches: without these a point type unknown to PCL does not link.
+#include <pcl/kdtree/impl/kdtree_flann.hpp>
+#include <pcl/search/impl/kdtree.hpp>
+#include <pcl/search/impl/organized.hpp>
+#include <pcl/search/impl/search.hpp>
 
 namespace storey {
 namespace detail {
