@@ -9,6 +9,8 @@
 namespace storey::detail {
 namespace {
 
+constexpr double kLeastDensity = 0.05;  // of the densest layer's
+
 // What the points say about one layer, or several summed.
 struct LayerTerms {
   std::vector<double> area;         // A_e
@@ -44,23 +46,31 @@ double wallDensity(const std::vector<double>& difference, const std::vector<doub
   return 0.0;
 }
 
-LayerTerms wallTerms(const LineArrangement& plan, const WallEvidence& evidence, std::size_t first,
-                     std::size_t last) {
-  LayerTerms terms;
-  const std::size_t n = plan.edges.size();
-  std::vector<double> difference(n, 0.0);
-  terms.area.resize(n);
-  terms.signed_area.resize(n);
-  terms.unary.assign(plan.cells.size(), 0.0);
-  const double height = evidence.bin * static_cast<double>(last - first);
-  for (std::size_t e = 0; e < n; ++e) {
-    terms.area[e] = plan.edges[e].length() * height;
+// Points ahead less points behind, for each edge over the bins.
+std::vector<double> differences(const LineArrangement& plan, const WallEvidence& evidence,
+                                std::size_t first, std::size_t last) {
+  std::vector<double> difference(plan.edges.size(), 0.0);
+  for (std::size_t e = 0; e < difference.size(); ++e) {
     for (std::size_t b = first; b < last; ++b) {
       difference[e] +=
           evidence.ahead[e * evidence.num_bins + b] - evidence.behind[e * evidence.num_bins + b];
     }
   }
-  const double density = wallDensity(difference, terms.area);
+  return difference;
+}
+
+// \param least_density below it points are outliers, not a sparse wall
+LayerTerms wallTerms(const LineArrangement& plan, const WallEvidence& evidence, std::size_t first,
+                     std::size_t last, double least_density) {
+  LayerTerms terms;
+  const std::size_t n = plan.edges.size();
+  const std::vector<double> difference = differences(plan, evidence, first, last);
+  terms.area.resize(n);
+  terms.signed_area.resize(n);
+  terms.unary.assign(plan.cells.size(), 0.0);
+  const double height = evidence.bin * static_cast<double>(last - first);
+  for (std::size_t e = 0; e < n; ++e) terms.area[e] = plan.edges[e].length() * height;
+  const double density = std::max(least_density, wallDensity(difference, terms.area));
   for (std::size_t e = 0; e < n; ++e) {
     const double seen = density > 0.0 ? difference[e] / density : 0.0;
     terms.signed_area[e] = std::clamp(seen, -terms.area[e], terms.area[e]);
@@ -191,9 +201,16 @@ std::vector<CellBlock> labelCells(const LineArrangement& plan, const WallEvidenc
   if (levels.size() < 2) return {};
   const std::size_t num_layers = levels.size() - 1;
   const auto by_cell = pointsByCell(plan, level_points);
+  // The density of the building as a whole, of which no layer of it has less than a small share.
+  double overall = 0.0;
+  for (std::size_t l = 0; l < num_layers; ++l) {
+    const LayerTerms terms = wallTerms(plan, evidence, levels[l], levels[l + 1], 0.0);
+    overall = std::max(
+        overall, wallDensity(differences(plan, evidence, levels[l], levels[l + 1]), terms.area));
+  }
   std::vector<LayerTerms> layers;
   for (std::size_t l = 0; l < num_layers; ++l) {
-    layers.push_back(wallTerms(plan, evidence, levels[l], levels[l + 1]));
+    layers.push_back(wallTerms(plan, evidence, levels[l], levels[l + 1], kLeastDensity * overall));
     addLevelTerms(plan, by_cell, evidence.heightOf(levels[l]), evidence.heightOf(levels[l + 1]),
                   options.level, layers.back());
   }
