@@ -143,7 +143,7 @@ TYPED_TEST(MRFReconstruction, OfSlicesIsAClosedSolid) {
     EXPECT_NEAR(volumeOf(result), kVolume, 0.05 * kVolume);
     EXPECT_TRUE(reconstruction.getResult().check.ok());
     EXPECT_NEAR(reconstruction.getResult().check.volume, volumeOf(result), 1e-3 * kVolume);
-    // Five walls of the L and the tower's one above it, ground, two roofs.
+    // Six walls, those of the tower one polygon with the L's below them; ground, two roofs.
     EXPECT_EQ(reconstruction.getModel().faces.size(), 9U);
     EXPECT_EQ(reconstruction.getResult().dominant.num_types, 2);
     EXPECT_TRUE(reconstruction.getResult().dominant.labeling.optimal);
@@ -182,8 +182,8 @@ TYPED_TEST(MRFReconstruction, HoldsTheModelsVerticesAndTheInputsHeader) {
   reconstruction.reconstruct(mesh);
   const Mesh result(mesh);
   ASSERT_EQ(result.vertices.size(), reconstruction.getModel().vertices.size());
-  // The six corners of the L at the ground and at 4; (0, 0), (0, 12) and (7, 12) go up to 8 without
-  // a vertex at 4, and (7, 0) starts there: 6 + 3 + 1 + 4.
+  // Six corners on the ground, four of the lower roof, four of the upper one: the tower's other
+  // walls go through without a vertex.
   EXPECT_EQ(result.vertices.size(), 14U);
   for (std::size_t i = 0; i < result.vertices.size(); ++i) {
     EXPECT_LT((result.vertices[i] - reconstruction.getModel().vertices[i]).norm(), 1e-5);
