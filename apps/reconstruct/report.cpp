@@ -173,11 +173,8 @@ void writeReport(const std::string& path, const Options& options, const Result& 
                      {"extent", r.scale.extent}};
   report["planar"] = {{"T_k", r.planar_threshold}, {"points", r.planar.size()}};
   report["directions"] = describeDirections(r);
-  if (options.method == Method::Paper) {
-    report["slices"] = describeSlices(r);
-  } else {
-    report["building"] = describeBuilding(r);
-  }
+  report["slices"] = describeSlices(r);  // none where the floorplans are of the whole building
+  report["building"] = describeBuilding(r);
   report["layers"] = describeLayers(r);
   report["walls"] = describeWalls(r);
   report["model"] = describeModel(r);
