@@ -191,6 +191,7 @@ void collectHeights(const std::vector<FloorplanLayer>& layers, const FitPoints& 
   const double margin = kEndMargin * noise;
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     const Eigen::Vector3d p = points.positions[i].cast<double>();
+    if (!detail::isWallNormal(points.normals[i])) continue;  // roofs and ground end no wall
     const Eigen::Vector2d normal = points.normals[i].head<2>().cast<double>();
     // Levels are sorted, and windows overlap only with their neighbours'.
     const auto next =
@@ -201,6 +202,7 @@ void collectHeights(const std::vector<FloorplanLayer>& layers, const FitPoints& 
       const LevelWalls& at = walls[static_cast<std::size_t>(level - levels.begin())];
       // A point tells of a wall's end only if no other wall is nearer.
       const double any = at.all.distance(p.head<2>(), normal, 0.0) + 1e-9 * noise;
+      if (!std::isfinite(any)) continue;  // of no wall at all
       const double end = at.ends.distance(p.head<2>(), normal, margin);
       const double start = at.starts.distance(p.head<2>(), normal, margin);
       if (end <= any && end <= start) {

@@ -87,7 +87,7 @@ std::array<double, 3> pointsPerHeight(double density) {
 }
 
 // Points near no wall at all are taken for points of walls that end.
-TEST(FitHeights, DISABLED_ReachesTheBoundWithoutBias) {
+TEST(FitHeights, ReachesTheBoundWithoutBias) {
   // The bound sqrt(sigma / (0.9032 lambda)); a deviation over 100 draws is known to 1 / sqrt(200),
   // a mean to deviation / 10. Likelihood's own bias, inwards, is 0.365 / lambda, far below.
   for (const double density : {5.0, 20.0}) {
@@ -123,7 +123,7 @@ void addCap(double low, double high, double z, double up, double density, std::m
 }
 
 // Points of caps with normals that lean, or stand exactly upright, are taken for wall points.
-TEST(FitHeights, DISABLED_RoofAndGroundDoNotMoveTopAndFoot) {
+TEST(FitHeights, RoofAndGroundDoNotMoveTopAndFoot) {
   constexpr double kDensity = 20.0;
   const Errors errors = measure(kDensity, [](std::mt19937& random, FitPoints& points) {
     addCap(0, 20, 0.0, -1.0, kDensity, random, points);
@@ -138,7 +138,7 @@ TEST(FitHeights, DISABLED_RoofAndGroundDoNotMoveTopAndFoot) {
 }
 
 // Points near no wall at all are taken for points of walls that end.
-TEST(FitHeights, DISABLED_OutliersMoveALevelByLessThanAFifthOfTheNoise) {
+TEST(FitHeights, OutliersMoveALevelByLessThanAFifthOfTheNoise) {
   constexpr double kDensity = 20.0;
   const Errors errors = measure(kDensity, [](std::mt19937& random, FitPoints& points) {
     const std::size_t count = points.positions.size() / 20;
@@ -193,7 +193,7 @@ TEST(FitHeights, NoLevelMovesFurtherThanAllowed) {
 }
 
 // Points near no wall at all are taken for points of walls that end.
-TEST(FitHeights, DISABLED_ALayerThinnerThanThreeDeviationsGoes) {
+TEST(FitHeights, ALayerThinnerThanThreeDeviationsGoes) {
   // A slice that straddles the change became a layer of its own: both its boundaries come to 12.
   WallSampler sampler(kSigma, 3);
   FitPoints points;
