@@ -132,7 +132,6 @@ void extractGreedily(const std::vector<WallPoint>& points, const WallScale& scal
   SupportOptions support_options;
   support_options.fit_direction = free_direction;
   const double least_votes = std::max(10.0, kMinVotes * options.min_area * scale.density);
-  // A first guess is off by up to half a degree: over half the extent that is the gate.
   for (int failures = 0; failures < kMaxFailures && static_cast<int>(lines.size()) < kMaxLines;) {
     const VoteTable::Peak peak = table.strongest();
     if (peak.votes < least_votes) return;

@@ -26,7 +26,7 @@ struct BuildingFloorplans {
 };
 
 /// The floorplans of a building from the walls of all of it at once (see
-/// `BuildingFloorplanExtraction`). \param points of walls; at most `max_samples` of them, evenly
+/// `BuildingFloorplanExtraction`). \param points of walls; at most 250,000 of them, evenly
 /// drawn, vote for lines, all of them count as evidence
 BuildingFloorplans extractBuildingFloorplans(const std::vector<WallPoint>& points,
                                              const std::vector<LevelPoint>& level_points,
