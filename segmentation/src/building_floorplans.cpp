@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/segmentation/detail/building_floorplans.h>
+#include <storey/segmentation/detail/line_refit.h>
+#include <storey/segmentation/detail/outline_pruning.h>
 #include <storey/segmentation/detail/wall_lines.h>
 
 #include <algorithm>
@@ -14,6 +16,8 @@ constexpr double kMargin = 0.15;             // of the box around the walls
 constexpr double kSameLine = 1.0;            // noise deviations: opposite walls on one line
 constexpr double kBlockNoise = 500.0;        // squared noise deviations
 constexpr double kBlockShare = 0.002;        // of the area of all walls
+constexpr int kPasses = 2;                   // the second with the walls that bound a block alone
+constexpr double kRunCost = 0.5;             // of the least area of a wall
 constexpr double kShortEdge = 3.0;           // noise deviations
 constexpr double kCornerTolerance = 0.05;    // noise deviations
 
@@ -31,6 +35,22 @@ std::vector<WallPoint> drawEvenly(const std::vector<WallPoint>& points) {
   return sample;
 }
 
+struct PlanBox {
+  Eigen::Vector2d low;
+  Eigen::Vector2d high;
+};
+
+PlanBox boxAround(const std::vector<WallPoint>& points) {
+  PlanBox box{points.front().position, points.front().position};
+  for (const WallPoint& p : points) {
+    box.low = box.low.cwiseMin(p.position);
+    box.high = box.high.cwiseMax(p.position);
+  }
+  const Eigen::Vector2d margin =
+      Eigen::Vector2d::Constant(kMargin * (box.high - box.low).maxCoeff());
+  return {box.low - margin, box.high + margin};
+}
+
 // Lines of the arrangement: walls that lie on one line, from either side, share it.
 std::vector<PlanLine> planLinesOf(const std::vector<WallLine>& walls,
                                   const std::vector<PlanLine>& hypotheses, double noise) {
@@ -46,6 +66,23 @@ std::vector<PlanLine> planLinesOf(const std::vector<WallLine>& walls,
   }
   lines.insert(lines.end(), hypotheses.begin(), hypotheses.end());
   return lines;
+}
+
+// Without lines that lie on another all through the box.
+std::vector<PlanLine> distinct(const std::vector<PlanLine>& lines, double noise,
+                               const PlanBox& box) {
+  const Eigen::Vector2d center = 0.5 * (box.low + box.high);
+  const double radius = 0.5 * (box.high - box.low).norm();
+  std::vector<PlanLine> result;
+  for (const PlanLine& line : lines) {
+    const Eigen::Vector2d foot = center - line.across(center) * line.normal;
+    const bool known = std::any_of(result.begin(), result.end(), [&](const PlanLine& other) {
+      const double turn = std::abs(line.tangent().dot(other.normal));
+      return std::abs(other.across(foot)) + radius * turn < kSameLine * noise;
+    });
+    if (!known) result.push_back(line);
+  }
+  return result;
 }
 
 // Support of a component: area of its walls that points confirm.
@@ -138,25 +175,28 @@ BuildingFloorplans extractBuildingFloorplans(const std::vector<WallPoint>& point
   if (result.walls.size() < 2) return result;
   result.hypotheses = hypothesiseLines(result.walls, sample_scale);
 
-  Eigen::Vector2d low = points.front().position;
-  Eigen::Vector2d high = low;
-  for (const WallPoint& p : points) {
-    low = low.cwiseMin(p.position);
-    high = high.cwiseMax(p.position);
-  }
-  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kMargin * (high - low).maxCoeff());
-  const double tolerance = kCornerTolerance * scale.noise;
-  result.plan = arrangeLines(planLinesOf(result.walls, result.hypotheses, scale.noise),
-                             low - margin, high + margin, tolerance);
-  const WallEvidence evidence = gatherEvidence(result.plan, points, scale);
-  result.levels = findLevels(evidence);
-  CellEnergyOptions energy;
   double wall_area = 0.0;
   for (const WallLine& wall : result.walls) wall_area += wall.support_area;
+  CellEnergyOptions energy;
   energy.block = options.block_cost > 0.0
                      ? options.block_cost
                      : kBlockNoise * scale.noise * scale.noise + kBlockShare * wall_area;
-  result.blocks = labelCells(result.plan, evidence, result.levels, level_points, energy);
+  const PlanBox box = boxAround(points);
+  const double tolerance = kCornerTolerance * scale.noise;
+  std::vector<PlanLine> lines = planLinesOf(result.walls, result.hypotheses, scale.noise);
+  WallEvidence evidence;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    if (pass > 0) {
+      lines = distinct(refitUsedLines(result.plan, evidence, result.blocks, points, scale.noise),
+                       scale.noise, box);
+      if (lines.size() < 3) break;
+    }
+    result.plan = arrangeLines(lines, box.low, box.high, tolerance);
+    evidence = gatherEvidence(result.plan, points, scale);
+    if (pass == 0) result.levels = findLevels(evidence);
+    result.blocks = labelCells(result.plan, evidence, result.levels, level_points, energy);
+    pruneOutlines(result.plan, energy.gap, kRunCost * options.min_wall_area, result.blocks);
+  }
   for (const CellBlock& block : result.blocks) {
     FloorplanLayer layer;
     layer.z_min = evidence.heightOf(block.first_bin);

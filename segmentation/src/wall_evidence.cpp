@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace storey::detail {
 namespace {
@@ -13,9 +14,92 @@ constexpr double kMinAgreement = 0.5;  // cosine of 60 degrees
 constexpr double kBin = 3.0;           // noise deviations
 constexpr double kMaxBins = 300.0;     // the partition is quadratic in them
 constexpr double kMinPoints = 20.0;    // of an edge that takes part in the levels
+constexpr double kTilePoints = 6.0;    // a wall misses a tile once in 400
+constexpr double kFullDensity = 0.5;   // of the walls' density: a tile is seen wholly
+constexpr double kLeastDensity = 0.05;         // of the densest height's
+constexpr std::size_t kDensityReach = 3;       // bins up and down
 
 // n ln(n / length), the Poisson log-likelihood of n points at their own mean density.
 double logLikelihood(double n, double length) { return n > 0.0 ? n * std::log(n / length) : 0.0; }
+
+// Tiles of all edges: edge e has those from first[e] to first[e + 1], equally wide.
+struct EdgeTiles {
+  std::vector<std::size_t> first;
+  std::vector<double> width;
+  std::size_t num_bins = 0;
+  std::vector<float> difference;  // tile by tile and bin: points ahead less points behind
+
+  std::size_t tileOf(std::size_t edge, double s) const {
+    const std::size_t count = first[edge + 1] - first[edge];
+    const double place = std::max(0.0, s / width[edge]);
+    return first[edge] + std::min(count - 1, static_cast<std::size_t>(place));
+  }
+};
+
+EdgeTiles makeTiles(const LineArrangement& plan, double width, std::size_t num_bins) {
+  EdgeTiles tiles;
+  tiles.num_bins = num_bins;
+  tiles.first.push_back(0);
+  for (const PlanEdge& edge : plan.edges) {
+    const double count = std::max(1.0, std::floor(edge.length() / width));
+    tiles.width.push_back(edge.length() / count);
+    tiles.first.push_back(tiles.first.back() + static_cast<std::size_t>(count));
+  }
+  tiles.difference.assign(tiles.first.back() * num_bins, 0.0f);
+  return tiles;
+}
+
+// Density of the points on the walls at each height: the median over the tiles around it, weighted
+// by their points, so that it follows a density that falls with height. Where there are outliers
+// only it is a small share of the building's.
+std::vector<double> densityByHeight(const EdgeTiles& tiles, double bin) {
+  std::vector<double> densities(tiles.num_bins, 0.0);
+  std::vector<std::pair<double, double>> values;  // density, weight
+  for (std::size_t b = 0; b < tiles.num_bins; ++b) {
+    values.clear();
+    double total = 0.0;
+    const std::size_t from = b > kDensityReach ? b - kDensityReach : 0;
+    const std::size_t to = std::min(tiles.num_bins, b + kDensityReach + 1);
+    for (std::size_t e = 0; e < tiles.width.size(); ++e) {
+      for (std::size_t t = tiles.first[e]; t < tiles.first[e + 1]; ++t) {
+        double d = 0.0;
+        for (std::size_t k = from; k < to; ++k) d += tiles.difference[t * tiles.num_bins + k];
+        if (d == 0.0) continue;
+        const double area = tiles.width[e] * bin * static_cast<double>(to - from);
+        values.emplace_back(std::abs(d) / area, std::abs(d));
+        total += std::abs(d);
+      }
+    }
+    std::sort(values.begin(), values.end());
+    double sum = 0.0;
+    for (const auto& [density, weight] : values) {
+      sum += weight;
+      if (sum < 0.5 * total) continue;
+      densities[b] = density;
+      break;
+    }
+  }
+  const double least = kLeastDensity * *std::max_element(densities.begin(), densities.end());
+  for (double& density : densities) density = std::max(density, least);
+  return densities;
+}
+
+void measureSeen(const EdgeTiles& tiles, WallEvidence& evidence) {
+  const std::size_t bins = evidence.num_bins;
+  evidence.seen.assign(evidence.ahead.size(), 0.0f);
+  const std::vector<double> densities = densityByHeight(tiles, evidence.bin);
+  for (std::size_t e = 0; e < tiles.width.size(); ++e) {
+    const double area = tiles.width[e] * evidence.bin;
+    for (std::size_t t = tiles.first[e]; t < tiles.first[e + 1]; ++t) {
+      for (std::size_t b = 0; b < bins; ++b) {
+        const double d = tiles.difference[t * bins + b];
+        if (d == 0.0) continue;
+        const double share = std::clamp(d / (kFullDensity * densities[b] * area), -1.0, 1.0);
+        evidence.seen[e * bins + b] += static_cast<float>(share * area);
+      }
+    }
+  }
+}
 
 }  // namespace
 
@@ -34,6 +118,8 @@ WallEvidence gatherEvidence(const LineArrangement& plan, const std::vector<WallP
   evidence.num_bins = static_cast<std::size_t>((high - low) / evidence.bin) + 1;
   evidence.ahead.assign(plan.edges.size() * evidence.num_bins, 0.0f);
   evidence.behind.assign(plan.edges.size() * evidence.num_bins, 0.0f);
+  EdgeTiles tiles = makeTiles(
+      plan, std::max(evidence.bin, kTilePoints / (scale.density * evidence.bin)), evidence.num_bins);
 
   std::vector<std::size_t> first_edge(plan.lines.size() + 1, 0);  // edges are sorted by line
   for (const PlanEdge& edge : plan.edges) ++first_edge[static_cast<std::size_t>(edge.line) + 1];
@@ -58,10 +144,13 @@ WallEvidence gatherEvidence(const LineArrangement& plan, const std::vector<WallP
     if (edge == end || s < edge->s_min) continue;
     const auto bin =
         std::min(evidence.num_bins - 1, static_cast<std::size_t>((p.z - low) / evidence.bin));
-    const std::size_t slot =
-        static_cast<std::size_t>(edge - plan.edges.begin()) * evidence.num_bins + bin;
-    (plan.lines[line].normal.dot(p.normal) > 0.0 ? evidence.ahead : evidence.behind)[slot] += 1.0f;
+    const auto e = static_cast<std::size_t>(edge - plan.edges.begin());
+    const bool agrees = plan.lines[line].normal.dot(p.normal) > 0.0;
+    (agrees ? evidence.ahead : evidence.behind)[e * evidence.num_bins + bin] += 1.0f;
+    tiles.difference[tiles.tileOf(e, s - edge->s_min) * evidence.num_bins + bin] +=
+        agrees ? 1.0f : -1.0f;
   }
+  measureSeen(tiles, evidence);
   return evidence;
 }
 

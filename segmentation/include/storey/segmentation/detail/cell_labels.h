@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <storey/segmentation/detail/line_arrangement.h>
-#include <storey/segmentation/detail/wall_evidence.h>
+#include <storey/segmentation/detail/cell_energy.h>
 #include <storey/segmentation/floorplan.h>
 
 #include <cstddef>
 #include <vector>
 
 namespace storey::detail {
-
-/// A horizontal point: its place, height, and whether it faces up (roof, terrace, ground) or down.
-struct LevelPoint {
-  Eigen::Vector2d position;
-  double z = 0.0;
-  bool up = true;
-};
 
 /// Weights of the energy of a labelling, in units of wall area.
 struct CellEnergyOptions {
@@ -24,27 +16,25 @@ struct CellEnergyOptions {
   double level = 0.25;  ///< weight of the horizontal points
 };
 
-/// Layers `first` .. `last` - 1 of the levels as one block, and the cells that are inside in it.
+/// The layers between two bins as one block, and the cells that are inside in it.
 struct CellBlock {
   std::size_t first_bin = 0;
   std::size_t last_bin = 0;
+  double energy = 0.0;
   std::vector<char> inside;      ///< one a cell
+  CellTerms terms;               ///< of all its layers
   std::vector<double> coverage;  ///< one an edge: share of its area that points confirm, signed
+
+  void measureCoverage();  ///< from the terms
 };
 
-/// Decides what is inside: for every block a minimum cut over the cells of the plan, and the blocks
-/// themselves so that the sum is least.
+/// Decides what is inside: for every block a minimum cut over the cells of the plan (`minimumCut`),
+/// and the blocks themselves so that the sum E = sum_blocks (min E + block) is least.
 ///
-///     E(x) = sum_e [ a_e (x_ahead - x_behind) + gap (A_e - |a_e|) [x_ahead != x_behind] ]
-///            + sum_c u_c x_c,      E = sum_blocks (min E + block)
-///
-/// A_e is the area of an edge, length times height of the block; a_e in [-A_e, A_e] the signed area
-/// that its points confirm: points with normals along the line's minus those against it, over the
-/// density of the layer. So a wall that is seen costs -A, one that is guessed gap A, one whose
-/// points face the other way A. u_c is the evidence of horizontal points: a roof above means
-/// inside, one below outside. Cells at the border are outside. The energy is submodular, each cut
-/// is optimal, and dynamic programming over all partitions of the layers makes the blocks so: these
-/// are the dominant floorplans of the building.
+/// A wall that is seen earns its area, one that is guessed costs `gap` of it, one whose points face
+/// the other way costs all of it. A roof above a cell means inside, one below outside. The energy
+/// is submodular, each cut is optimal, and dynamic programming over all partitions of the layers
+/// makes the blocks so: these are the dominant floorplans of the building.
 std::vector<CellBlock> labelCells(const LineArrangement& plan, const WallEvidence& evidence,
                                   const std::vector<std::size_t>& levels,
                                   const std::vector<LevelPoint>& level_points,

@@ -9,14 +9,17 @@
 
 namespace storey::detail {
 
-/// Signed counts of points: for each edge of the plan and each bin of height, the points whose
-/// normals agree with the line's and those that oppose it.
+/// What the points say of each edge of the plan at each height. All three arrays are num_edges x
+/// num_bins, edge by edge.
 struct WallEvidence {
   double z_min = 0.0;
   double bin = 1.0;
   std::size_t num_bins = 0;
-  std::vector<float> ahead;   ///< num_edges x num_bins: normal along the line's
-  std::vector<float> behind;  ///< against it
+  std::vector<float> ahead;   ///< points whose normals agree with the line's
+  std::vector<float> behind;  ///< points whose normals oppose it
+  /// Signed area that they confirm, in [-area, area] of edge and bin: positive where the wall's
+  /// outside is ahead of the line.
+  std::vector<float> seen;
 
   double heightOf(std::size_t boundary) const {
     return z_min + bin * static_cast<double>(boundary);
@@ -25,6 +28,11 @@ struct WallEvidence {
 
 /// Gives each point to the nearest line within 2.5 noise deviations whose direction its normal
 /// confirms (within 60 degrees), there to its edge and bin.
+///
+/// `seen` is counted in tiles of the edge, one bin high and as wide as six points need. A tile is
+/// seen wholly if its points (those ahead less those behind: errors of orientation cancel) have half
+/// the density of the walls at its height, and in proportion below that. So a dense patch does not
+/// stand for a whole wall, and walls that are sampled more thinly than others count all the same.
 WallEvidence gatherEvidence(const LineArrangement& plan, const std::vector<WallPoint>& points,
                             const WallScale& scale);
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <storey/segmentation/detail/line_arrangement.h>
+#include <storey/segmentation/detail/wall_evidence.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace storey::detail {
+
+/// A horizontal point: its place, height, and whether it faces up (roof, terrace, ground) or down.
+struct LevelPoint {
+  Eigen::Vector2d position;
+  double z = 0.0;
+  bool up = true;
+};
+
+/// What the points say about one layer, or several summed; in units of wall area.
+struct CellTerms {
+  std::vector<double> area;         ///< A_e of each edge: its length times the height
+  std::vector<double> signed_area;  ///< a_e in [-A_e, A_e], what its points confirm
+  std::vector<double> unary;        ///< u_c of each cell, cost of being inside
+
+  void add(const CellTerms& other);
+};
+
+/// The terms of each layer. \param levels bins of the boundaries, ascending
+/// \param level_weight of the horizontal points
+std::vector<CellTerms> termsOfLayers(const LineArrangement& plan, const WallEvidence& evidence,
+                                     const std::vector<std::size_t>& levels,
+                                     const std::vector<LevelPoint>& level_points,
+                                     double level_weight);
+
+/// The cheapest labelling of the cells, by a minimum cut:
+///
+///     E(x) = sum_e [ a_e (x_ahead - x_behind) + gap (A_e - |a_e|) [x_ahead != x_behind] ]
+///            + sum_c u_c x_c
+///
+/// Cells at the border are outside. Of the labellings with the least energy it is the one with the
+/// fewest cells inside.
+/// \param gap cost of a wall where no points are, of its area
+/// \param tied edges that must not separate inside from outside, one an edge; empty: none
+/// \param inside one a cell \return its energy
+double minimumCut(const LineArrangement& plan, const CellTerms& terms, double gap,
+                  const std::vector<char>& tied, std::vector<char>& inside);
+
+}  // namespace storey::detail
