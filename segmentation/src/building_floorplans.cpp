@@ -14,10 +14,9 @@ namespace {
 constexpr std::size_t kMaxSamples = 250000;  // points that vote for lines
 constexpr double kMargin = 0.15;             // of the box around the walls
 constexpr double kSameLine = 1.0;            // noise deviations: opposite walls on one line
-constexpr double kBlockNoise = 500.0;        // squared noise deviations
-constexpr double kBlockShare = 0.002;        // of the area of all walls
 constexpr int kPasses = 2;                   // the second with the walls that bound a block alone
-constexpr double kRunCost = 0.5;             // of the least area of a wall
+constexpr double kFaceCost = 0.5;             // of the least area of a wall
+constexpr double kBlockFaces = 2.0;           // faces that one more block has at least
 constexpr double kShortEdge = 3.0;           // noise deviations
 constexpr double kCornerTolerance = 0.05;    // noise deviations
 
@@ -175,12 +174,9 @@ BuildingFloorplans extractBuildingFloorplans(const std::vector<WallPoint>& point
   if (result.walls.size() < 2) return result;
   result.hypotheses = hypothesiseLines(result.walls, sample_scale);
 
-  double wall_area = 0.0;
-  for (const WallLine& wall : result.walls) wall_area += wall.support_area;
   CellEnergyOptions energy;
-  energy.block = options.block_cost > 0.0
-                     ? options.block_cost
-                     : kBlockNoise * scale.noise * scale.noise + kBlockShare * wall_area;
+  const double face_cost = kFaceCost * options.min_wall_area;
+  energy.block = options.block_cost > 0.0 ? options.block_cost : kBlockFaces * face_cost;
   const PlanBox box = boxAround(points);
   const double tolerance = kCornerTolerance * scale.noise;
   std::vector<PlanLine> lines = planLinesOf(result.walls, result.hypotheses, scale.noise);
@@ -195,7 +191,7 @@ BuildingFloorplans extractBuildingFloorplans(const std::vector<WallPoint>& point
     evidence = gatherEvidence(result.plan, points, scale);
     if (pass == 0) result.levels = findLevels(evidence);
     result.blocks = labelCells(result.plan, evidence, result.levels, level_points, energy);
-    pruneOutlines(result.plan, energy.gap, kRunCost * options.min_wall_area, result.blocks);
+    pruneOutlines(result.plan, energy.gap, face_cost, result.blocks);
   }
   for (const CellBlock& block : result.blocks) {
     FloorplanLayer layer;

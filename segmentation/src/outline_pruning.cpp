@@ -1,130 +1,146 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/outline_faces.h>
 #include <storey/segmentation/detail/outline_pruning.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
 namespace storey::detail {
 namespace {
 
-constexpr double kTriedUpTo = 2.0;  // costs: what has more to show than this stays
+constexpr double kTriedUpTo = 3.0;   // costs: what has more to show than this stays
 constexpr double kLeastGain = 1e-9;  // of the cost, against endless exchanges
 
-struct Run {
-  std::size_t first = 0;  // edges of the plan, one after the other along a line
-  std::size_t last = 0;
-  double seen = 0.0;  // area
-};
-
-// +1 if the inside is behind the line, -1 if it is ahead, 0 if the edge is no boundary.
-int sideOf(const PlanEdge& edge, const std::vector<char>& inside) {
-  return int{inside[static_cast<std::size_t>(edge.behind)]} -
-         int{inside[static_cast<std::size_t>(edge.ahead)]};
-}
-
-std::vector<Run> runsOf(const LineArrangement& plan, const CellTerms& terms,
-                        const std::vector<char>& inside) {
-  std::vector<Run> runs;
-  int side = 0;  // of the run that is being made
-  for (std::size_t e = 0; e < plan.edges.size(); ++e) {
-    const PlanEdge& edge = plan.edges[e];
-    const int own = sideOf(edge, inside);
-    const bool joined = e > 0 && side == own && plan.edges[e - 1].line == edge.line &&
-                        edge.s_min - plan.edges[e - 1].s_max < 1e-6 * edge.length();
-    side = own;
-    if (own == 0) continue;
-    if (!joined) runs.push_back({e, e, 0.0});
-    runs.back().last = e;
-    runs.back().seen += std::max(0.0, own * terms.signed_area[e]);
-  }
-  return runs;
-}
-
-// One block while it is pruned.
+// A block while it is pruned.
 struct Outline {
-  std::vector<char> tied;
-  std::vector<Run> runs;
+  CellBlock block;
+  std::vector<char> tied;  // edges that may not bound it
+  std::vector<OutlineRun> runs;
   std::set<std::pair<std::size_t, std::size_t>> tried;  // runs that earn their cost
 };
 
 class Pruning {
  public:
   Pruning(const LineArrangement& plan, double gap, double cost, std::vector<CellBlock>& blocks)
-      : plan_(plan), gap_(gap), cost_(cost), blocks_(blocks), outlines_(blocks.size()) {
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      outlines_[b].tied.assign(plan.edges.size(), 0);
-      outlines_[b].runs = runsOf(plan, blocks[b].terms, blocks[b].inside);
+      : plan_(plan), gap_(gap), cost_(cost) {
+    for (CellBlock& block : blocks) {
+      Outline outline;
+      outline.block = std::move(block);
+      outline.tied.assign(plan.edges.size(), 0);
+      outline.runs = runsOf(plan, outline.block.terms, outline.block.inside);
+      outlines_.push_back(std::move(outline));
     }
+    objective_ = objectiveOf({});
   }
 
-  void run() {
+  std::vector<CellBlock> run() {
     dropLines();
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      while (dropRun(b)) {
-      }
+    for (std::size_t b = 0; b < outlines_.size(); ++b) dropRuns(b);
+    while (mergeBlocks()) {
     }
     dropLines();
+    std::vector<CellBlock> blocks;
+    for (Outline& outline : outlines_) blocks.push_back(std::move(outline.block));
+    return blocks;
   }
 
  private:
-  struct Trial {
-    std::size_t block = 0;
-    std::vector<char> tied;
-    std::vector<char> inside;
-    std::vector<Run> runs;
+  using Trials = std::map<std::size_t, Outline>;  // in place of the blocks of these numbers
+
+  void cut(Outline& outline) const {
+    CellBlock& block = outline.block;
+    block.energy = minimumCut(plan_, block.terms, gap_, outline.tied, block.inside);
+    outline.runs = runsOf(plan_, block.terms, block.inside);
+  }
+
+  // F. \param without a block that is left out, for its neighbour has taken it in
+  double objectiveOf(const Trials& trials, std::size_t without = SIZE_MAX) const {
+    std::vector<BlockOutline> stack;
+    std::vector<char> used(plan_.lines.size(), 0);
     double energy = 0.0;
-  };
-
-  Trial cutWithout(std::size_t b, std::vector<char> tied) const {
-    Trial trial;
-    trial.block = b;
-    trial.tied = std::move(tied);
-    trial.energy = minimumCut(plan_, blocks_[b].terms, gap_, trial.tied, trial.inside);
-    trial.runs = runsOf(plan_, blocks_[b].terms, trial.inside);
-    return trial;
+    for (std::size_t b = 0; b < outlines_.size(); ++b) {
+      if (b == without) continue;
+      const auto trial = trials.find(b);
+      const Outline& outline = trial != trials.end() ? trial->second : outlines_[b];
+      energy += outline.block.energy;
+      stack.push_back({&outline.block.inside, &outline.runs});
+      for (const OutlineRun& run : outline.runs) {
+        used[static_cast<std::size_t>(plan_.edges[run.first].line)] = 1;
+      }
+    }
+    const auto lines = std::count(used.begin(), used.end(), 1);
+    return energy + cost_ * static_cast<double>(countFaces(plan_, stack) +
+                                                static_cast<std::size_t>(lines));
   }
 
-  // Of F, without the lines.
-  double changeBy(const Trial& trial) const {
-    const double more_runs = static_cast<double>(trial.runs.size()) -
-                             static_cast<double>(outlines_[trial.block].runs.size());
-    return trial.energy - blocks_[trial.block].energy + cost_ * more_runs;
+  bool acceptIfLower(Trials trials, std::size_t without = SIZE_MAX) {
+    const double objective = objectiveOf(trials, without);
+    if (objective >= objective_ - kLeastGain * cost_) return false;
+    objective_ = objective;
+    for (auto& [b, outline] : trials) outlines_[b] = std::move(outline);
+    if (without != SIZE_MAX) {
+      outlines_.erase(outlines_.begin() + static_cast<std::ptrdiff_t>(without));
+    }
+    return true;
   }
 
-  void accept(Trial trial) {
-    CellBlock& block = blocks_[trial.block];
-    Outline& outline = outlines_[trial.block];
-    block.energy = trial.energy;
-    block.inside = std::move(trial.inside);
-    outline.tied = std::move(trial.tied);
-    outline.runs = std::move(trial.runs);
+  void dropRuns(std::size_t b) {
+    while (dropRun(b)) {
+    }
   }
 
   bool dropRun(std::size_t b) {
-    std::vector<Run> runs = outlines_[b].runs;
-    std::stable_sort(runs.begin(), runs.end(),
-                     [](const Run& one, const Run& other) { return one.seen < other.seen; });
-    for (const Run& run : runs) {
+    std::vector<OutlineRun> runs = outlines_[b].runs;
+    std::stable_sort(
+        runs.begin(), runs.end(),
+        [](const OutlineRun& one, const OutlineRun& other) { return one.seen < other.seen; });
+    for (const OutlineRun& run : runs) {
       if (run.seen > kTriedUpTo * cost_) return false;
       if (!outlines_[b].tried.emplace(run.first, run.last).second) continue;
-      std::vector<char> tied = outlines_[b].tied;
-      std::fill(tied.begin() + static_cast<std::ptrdiff_t>(run.first),
-                tied.begin() + static_cast<std::ptrdiff_t>(run.last) + 1, char{1});
-      Trial trial = cutWithout(b, std::move(tied));
-      if (changeBy(trial) >= -kLeastGain * cost_) continue;
-      accept(std::move(trial));
-      return true;
+      Outline trial = outlines_[b];
+      std::fill(trial.tied.begin() + static_cast<std::ptrdiff_t>(run.first),
+                trial.tied.begin() + static_cast<std::ptrdiff_t>(run.last) + 1, char{1});
+      cut(trial);
+      if (acceptIfLower({{b, std::move(trial)}})) return true;
     }
     return false;
+  }
+
+  // The merge of two neighbours that lowers F most, if any does.
+  bool mergeBlocks() {
+    double best = objective_ - kLeastGain * cost_;
+    std::size_t best_lower = SIZE_MAX;
+    Outline best_outline;
+    for (std::size_t b = 0; b + 1 < outlines_.size(); ++b) {
+      Outline merged = outlines_[b];
+      const Outline& upper = outlines_[b + 1];
+      merged.block.last_bin = upper.block.last_bin;
+      merged.block.terms.add(upper.block.terms);
+      for (std::size_t e = 0; e < merged.tied.size(); ++e) {
+        merged.tied[e] = merged.tied[e] != 0 && upper.tied[e] != 0 ? 1 : 0;
+      }
+      merged.tried.clear();
+      cut(merged);
+      const double objective = objectiveOf({{b, merged}}, b + 1);
+      if (objective >= best) continue;
+      best = objective;
+      best_lower = b;
+      best_outline = std::move(merged);
+    }
+    if (best_lower == SIZE_MAX) return false;
+    acceptIfLower({{best_lower, std::move(best_outline)}}, best_lower + 1);
+    dropRuns(best_lower);
+    return true;
   }
 
   // Area that each line shows in all blocks; negative: it bounds nothing.
   std::vector<double> seenByLine() const {
     std::vector<double> seen(plan_.lines.size(), -1.0);
     for (const Outline& outline : outlines_) {
-      for (const Run& run : outline.runs) {
+      for (const OutlineRun& run : outline.runs) {
         double& sum = seen[static_cast<std::size_t>(plan_.edges[run.first].line)];
         sum = std::max(0.0, sum) + run.seen;
       }
@@ -140,58 +156,41 @@ class Pruning {
     }
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return seen[a] < seen[b]; });
-    for (const std::size_t line : order) dropLine(static_cast<int>(line));
+    for (const std::size_t line : order) dropLine(line);
   }
 
-  void dropLine(int line) {
-    const auto [begin, end] =
-        std::equal_range(plan_.edges.begin(), plan_.edges.end(), PlanEdge{line, 0, 0, 0.0, 0.0},
-                         [](const PlanEdge& a, const PlanEdge& b) { return a.line < b.line; });
-    std::vector<Trial> trials;
-    double change = -cost_ * static_cast<double>(countLines(trials));
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      const bool used = std::any_of(begin, end, [&](const PlanEdge& edge) {
-        return sideOf(edge, blocks_[b].inside) != 0;
+  void dropLine(std::size_t line) {
+    Trials trials;
+    for (std::size_t b = 0; b < outlines_.size(); ++b) {
+      const std::vector<OutlineRun>& runs = outlines_[b].runs;
+      const bool used = std::any_of(runs.begin(), runs.end(), [&](const OutlineRun& run) {
+        return static_cast<std::size_t>(plan_.edges[run.first].line) == line;
       });
       if (!used) continue;
-      std::vector<char> tied = outlines_[b].tied;
-      std::fill(tied.begin() + (begin - plan_.edges.begin()),
-                tied.begin() + (end - plan_.edges.begin()), char{1});
-      trials.push_back(cutWithout(b, std::move(tied)));
-      change += changeBy(trials.back());
+      Outline trial = outlines_[b];
+      for (std::size_t e = 0; e < trial.tied.size(); ++e) {
+        if (static_cast<std::size_t>(plan_.edges[e].line) == line) trial.tied[e] = 1;
+      }
+      cut(trial);
+      trials.emplace(b, std::move(trial));
     }
-    change += cost_ * static_cast<double>(countLines(trials));
-    if (trials.empty() || change >= -kLeastGain * cost_) return;
-    for (Trial& trial : trials) accept(std::move(trial));
-  }
-
-  // Lines with a run in any block, the trials in place of their blocks.
-  std::size_t countLines(const std::vector<Trial>& trials) const {
-    std::vector<char> used(plan_.lines.size(), 0);
-    const auto mark = [&](const std::vector<Run>& runs) {
-      for (const Run& run : runs) used[static_cast<std::size_t>(plan_.edges[run.first].line)] = 1;
-    };
-    for (std::size_t b = 0; b < outlines_.size(); ++b) {
-      const auto trial = std::find_if(trials.begin(), trials.end(),
-                                      [&](const Trial& t) { return t.block == b; });
-      mark(trial != trials.end() ? trial->runs : outlines_[b].runs);
-    }
-    return static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
+    if (!trials.empty()) acceptIfLower(std::move(trials));
   }
 
   const LineArrangement& plan_;
   double gap_;
   double cost_;
-  std::vector<CellBlock>& blocks_;
   std::vector<Outline> outlines_;
+  double objective_ = 0.0;
 };
 
 }  // namespace
 
 void pruneOutlines(const LineArrangement& plan, double gap, double cost,
                    std::vector<CellBlock>& blocks) {
-  if (!(cost > 0.0)) return;
-  Pruning(plan, gap, cost, blocks).run();
+  if (!(cost > 0.0) || blocks.empty()) return;
+  blocks = Pruning(plan, gap, cost, blocks).run();
+  for (CellBlock& block : blocks) block.measureCoverage();
 }
 
 }  // namespace storey::detail

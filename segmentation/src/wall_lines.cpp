@@ -23,6 +23,10 @@ constexpr double kAngleDeviations = 4.0;
 constexpr double kMinDirectionShare = 0.04;            // of the supported area
 constexpr double kNearDirection = 4.0 * M_PI / 180.0;  // rad
 constexpr double kOutweighs = 3.0;
+constexpr double kExplained = 2.5;      // noise deviations across a line
+constexpr double kMinAgreement = 0.5;   // cosine of 60 degrees
+constexpr double kSupportMargin = 5.0;  // noise deviations beyond the ends of a line
+constexpr double kLeftover = 0.8;       // of the support; a wall 2 deviations beside has 0.69
 
 // Votes over (direction, offset bin). Rows may have any set of directions.
 class VoteTable {
@@ -119,11 +123,16 @@ std::vector<int> candidatesFor(const std::vector<WallPoint>& points, const std::
   return candidates;
 }
 
+struct FoundLine {
+  WallLine line;
+  std::vector<int> support;  // indices of points
+};
+
 // One greedy pass: strongest line, its support, take its points away, again.
 void extractGreedily(const std::vector<WallPoint>& points, const WallScale& scale,
                      const WallLineOptions& options, bool free_direction,
                      std::vector<double> angles, std::vector<char>& free,
-                     std::vector<WallLine>& lines) {
+                     std::vector<FoundLine>& lines) {
   VoteTable table(points, std::move(angles), scale.noise * (free_direction ? kFreeBin : kLockedBin),
                   free_direction ? kFreeWindow : kLockedWindow);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -137,7 +146,7 @@ void extractGreedily(const std::vector<WallPoint>& points, const WallScale& scal
     if (peak.votes < least_votes) return;
     WallLine line = table.lineAt(peak);
     const std::vector<int> candidates = candidatesFor(points, free, line, 12.0 * scale.noise);
-    const std::vector<int> support = fitToSupport(points, candidates, scale, support_options, line);
+    std::vector<int> support = fitToSupport(points, candidates, scale, support_options, line);
     if (support.empty() || line.support_area < options.min_area) {
       table.strikeOut(peak);
       ++failures;
@@ -148,12 +157,12 @@ void extractGreedily(const std::vector<WallPoint>& points, const WallScale& scal
       free[static_cast<std::size_t>(i)] = 0;
       table.vote(points[static_cast<std::size_t>(i)], -1);
     }
-    lines.push_back(std::move(line));
+    lines.push_back({std::move(line), std::move(support)});
   }
 }
 
 // Directions modulo 180 degrees, as angles in [0, pi).
-std::vector<double> directionsOf(const std::vector<WallLine>& lines) {
+std::vector<double> directionsOf(const std::vector<FoundLine>& lines) {
   struct Group {
     double angle = 0.0;
     double weight = 0.0;  // 1 / variance
@@ -162,7 +171,7 @@ std::vector<double> directionsOf(const std::vector<WallLine>& lines) {
   };
   std::vector<Group> groups;
   double total = 0.0;
-  for (const WallLine& line : lines) {  // strongest first
+  for (const auto& [line, support] : lines) {  // strongest first
     double angle = std::atan2(line.normal.y(), line.normal.x());
     if (angle < 0.0) angle += M_PI;
     const double deviation = std::max(line.angle_deviation, 1e-5);
@@ -214,6 +223,27 @@ bool duplicates(const WallLine& weak, const WallLine& strong, const WallScale& s
          static_cast<double>(weak.support) < 0.7 * static_cast<double>(strong.support);
 }
 
+bool explains(const WallLine& line, const WallPoint& p, double noise) {
+  const double s = line.along(p.position);
+  const double margin = kSupportMargin * noise;
+  return std::abs(line.across(p.position)) < kExplained * noise &&
+         line.normal.dot(p.normal) > kMinAgreement && s > line.s_min - margin &&
+         s < line.s_max + margin && p.z > line.z_min - margin && p.z < line.z_max + margin;
+}
+
+// Whether stronger lines explain nearly all of the support: at corners, where points of two walls
+// mix, the greedy search leaves some that a line of their own fits.
+bool isLeftover(const FoundLine& weak, const std::vector<WallLine>& strong,
+                const std::vector<WallPoint>& points, double noise) {
+  const auto explained =
+      std::count_if(weak.support.begin(), weak.support.end(), [&](const int i) {
+        return std::any_of(strong.begin(), strong.end(), [&](const WallLine& line) {
+          return explains(line, points[static_cast<std::size_t>(i)], noise);
+        });
+      });
+  return static_cast<double>(explained) > kLeftover * static_cast<double>(weak.support.size());
+}
+
 }  // namespace
 
 std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const WallScale& scale,
@@ -223,7 +253,7 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
     all_around[static_cast<std::size_t>(a)] = 2.0 * M_PI * a / kFreeAngles;
 
   std::vector<char> free(points.size(), 1);
-  std::vector<WallLine> free_lines;
+  std::vector<FoundLine> free_lines;
   extractGreedily(points, scale, options, true, all_around, free, free_lines);
 
   std::vector<double> oriented;
@@ -232,21 +262,23 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
     oriented.push_back(angle + M_PI);
   }
   std::fill(free.begin(), free.end(), 1);
-  std::vector<WallLine> lines;
+  std::vector<FoundLine> lines;
   if (!oriented.empty()) {
     extractGreedily(points, scale, options, false, oriented, free, lines);
   }
   extractGreedily(points, scale, options, true, all_around, free, lines);
 
-  std::stable_sort(lines.begin(), lines.end(),
-                   [](const WallLine& a, const WallLine& b) { return a.support > b.support; });
+  std::stable_sort(lines.begin(), lines.end(), [](const FoundLine& a, const FoundLine& b) {
+    return a.line.support > b.line.support;
+  });
   std::vector<WallLine> distinct;
-  for (const WallLine& line : lines) {
+  for (const FoundLine& found : lines) {
     const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const WallLine& strong) {
-      return duplicates(line, strong, scale);
+      return duplicates(found.line, strong, scale);
     });
-    if (!known) distinct.push_back(line);
+    if (!known && !isLeftover(found, distinct, points, scale.noise)) distinct.push_back(found.line);
   }
+  if (getenv("DBG")) for (const WallLine& w : distinct) fprintf(stderr, "wall %9.3f off %8.3f s[%7.2f %7.2f] z[%6.2f %6.2f] A %7.1f n %zu res %.3f ang %.4f\n", std::atan2(w.normal.y(), w.normal.x())*180/M_PI, w.offset, w.s_min, w.s_max, w.z_min, w.z_max, w.support_area, w.support, w.residual, w.angle_deviation*180/M_PI);
   return distinct;
 }
 

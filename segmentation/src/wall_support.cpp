@@ -2,9 +2,12 @@
 #include <storey/segmentation/detail/wall_support.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <map>
+#include <tuple>
+#include <utility>
 
 namespace storey::detail {
 namespace {
@@ -12,9 +15,17 @@ namespace {
 constexpr double kGates[] = {6.0, 5.0, 4.5, 4.0};  // noise deviations, one a round
 constexpr double kMinOccupancy = 0.3;              // of the expected points of a cell
 constexpr int kMinFullNeighbors = 3;               // of eight
+constexpr double kOn = 2.5;          // noise deviations: nearly all points of a wall
+constexpr double kBeside = 10.0;     // noise deviations
+constexpr double kMinOnShare = 0.4;  // of the points to either side; 0.25 of an even density
+constexpr double kStray = 0.03;      // of the support, at either end
 constexpr double kTilePoints = 50.0;
 constexpr double kTileSpread = 0.5;             // noise deviations, relief that one wall may have
 constexpr double kMaxInconsistentShare = 0.15;  // of the support
+constexpr double kLeanDeviations = 4.0;  // of the slope of a run against the line
+constexpr double kLean = 1.0;            // noise deviations, over the length of the run
+constexpr double kMinFlatShare = 0.7;           // of the support of a line with a locked direction
+constexpr double kFlat = 0.6;  // noise deviations that the middle of a wall may be off its line
 constexpr int kProfileBins = 24;                // along the wall, for the flatness
 
 // Integer cells of (s, z) about a line, dense storage.
@@ -215,7 +226,7 @@ bool isFlat(const Profile& profile, double noise, int first, int last) {
     const double n = profile.count[static_cast<std::size_t>(b)];
     if (n < 1.0) continue;
     const double mean = profile.sum[static_cast<std::size_t>(b)] / n - level;
-    if (std::abs(mean) > noise * (0.6 + 3.0 / std::sqrt(n))) off += n;
+    if (std::abs(mean) > noise * (kFlat + 3.0 / std::sqrt(n))) off += n;
   }
   return off <= kMaxInconsistentShare * total;
 }
@@ -263,6 +274,156 @@ std::vector<int> flatStretch(const std::vector<WallPoint>& points, const std::ve
   return {};
 }
 
+// Walls of nearly the same direction further on lie near the line too, and turn it by their long
+// lever. Keeps the points of the bins that agree with the line through the fuller half of them.
+std::vector<int> alongMainHalf(const std::vector<WallPoint>& points,
+                               const std::vector<int>& support, const WallScale& scale,
+                               const WallLine& line) {
+  struct Bin {
+    double n = 0.0, s = 0.0, d = 0.0, ss = 0.0, sd = 0.0;
+    void add(const Bin& b) { n += b.n, s += b.s, d += b.d, ss += b.ss, sd += b.sd; }
+  };
+  const Box box = boxOf(points, support, line);
+  const double step = std::max((box.s1 - box.s0) / kProfileBins, 1e-12);
+  std::array<Bin, kProfileBins> bins;
+  const auto binOf = [&](int i) {
+    const double s = line.along(points[static_cast<std::size_t>(i)].position) - box.s0;
+    return static_cast<std::size_t>(std::clamp(static_cast<int>(s / step), 0, kProfileBins - 1));
+  };
+  for (const int i : support) {
+    const Eigen::Vector2d& p = points[static_cast<std::size_t>(i)].position;
+    const double s = line.along(p) - box.s0;
+    const double d = line.across(p);
+    bins[binOf(i)].add({1.0, s, d, s * s, s * d});
+  }
+  Bin main;
+  for (std::size_t first = 0; first + kProfileBins / 2 <= kProfileBins; ++first) {
+    Bin half;
+    for (std::size_t b = first; b < first + kProfileBins / 2; ++b) half.add(bins[b]);
+    if (half.n > main.n) main = half;
+  }
+  const double spread = main.ss - main.s * main.s / main.n;
+  if (!(spread > 0.0)) return support;
+  const double slope = (main.sd - main.s * main.d / main.n) / spread;
+  std::array<bool, kProfileBins> agrees;
+  for (std::size_t b = 0; b < bins.size(); ++b) {
+    if (bins[b].n < 1.0) continue;
+    const double lever = bins[b].s / bins[b].n - main.s / main.n;
+    const double off = std::abs(bins[b].d / bins[b].n - main.d / main.n - slope * lever);
+    const double variance = 1.0 / bins[b].n + 1.0 / main.n + lever * lever / spread;
+    agrees[b] = off <= scale.noise * (kFlat + 3.0 * std::sqrt(variance));
+  }
+  std::vector<int> kept;
+  for (const int i : support) {
+    if (agrees[binOf(i)]) kept.push_back(i);
+  }
+  return kept;
+}
+
+using Runs = std::vector<std::pair<double, double>>;
+
+// Stretches along the line without a gap in the support.
+Runs runsOf(const std::vector<WallPoint>& points, const std::vector<int>& support,
+            const WallScale& scale, const WallLine& line) {
+  const Box box = boxOf(points, support, line);
+  const double side = supportCellSize(scale);
+  std::vector<char> seen(static_cast<std::size_t>((box.s1 - box.s0) / side) + 1, 0);
+  for (const int i : support) {
+    const double s = line.along(points[static_cast<std::size_t>(i)].position);
+    seen[std::min(seen.size() - 1, static_cast<std::size_t>((s - box.s0) / side))] = 1;
+  }
+  Runs runs;
+  for (std::size_t c = 0; c < seen.size(); ++c) {
+    if (seen[c] == 0) continue;
+    const double left = box.s0 + side * static_cast<double>(c);
+    const double right = std::min(left + side, box.s1);
+    if (c > 0 && seen[c - 1] != 0) {
+      runs.back().second = right;
+    } else {
+      runs.emplace_back(left, right);
+    }
+  }
+  return runs;
+}
+
+// Points of a wall that the line only crosses, flat enough to hold many of them, run against it.
+// Without the runs that turn against the line by more than their noise explains.
+std::vector<int> withoutLeaningRuns(const std::vector<WallPoint>& points,
+                                    const std::vector<int>& support, const WallScale& scale,
+                                    const WallLine& line) {
+  struct Moments {
+    double n = 0.0, s = 0.0, d = 0.0, ss = 0.0, sd = 0.0;
+  };
+  const Runs runs = runsOf(points, support, scale, line);
+  const auto runOf = [&](double s) {
+    const auto run =
+        std::find_if(runs.begin(), runs.end(), [&](const auto& r) { return s <= r.second; });
+    return static_cast<std::size_t>(std::min(run, runs.end() - 1) - runs.begin());
+  };
+  std::vector<Moments> moments(runs.size());
+  for (const int i : support) {
+    const Eigen::Vector2d& p = points[static_cast<std::size_t>(i)].position;
+    const std::size_t r = runOf(line.along(p));
+    const double s = line.along(p) - runs[r].first;
+    const double d = line.across(p);
+    Moments& m = moments[r];
+    m.n += 1.0, m.s += s, m.d += d, m.ss += s * s, m.sd += s * d;
+  }
+  std::vector<char> leans(runs.size(), 0);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const Moments& m = moments[r];
+    const double spread = m.ss - m.s * m.s / std::max(m.n, 1.0);
+    if (!(spread > 0.0)) continue;
+    const double slope = std::abs(m.sd - m.s * m.d / m.n) / spread;
+    leans[r] = slope > kLeanDeviations * scale.noise / std::sqrt(spread) &&
+               slope * (runs[r].second - runs[r].first) > kLean * scale.noise;
+  }
+  std::vector<int> kept;
+  for (const int i : support) {
+    if (leans[runOf(line.along(points[static_cast<std::size_t>(i)].position))] == 0) {
+      kept.push_back(i);
+    }
+  }
+  return kept;
+}
+
+// Whether the points keep to the line. Tree crowns and other clutter fill the space about it evenly.
+bool isSurface(const std::vector<WallPoint>& points, const std::vector<int>& support,
+               const std::vector<int>& candidates, const WallScale& scale, const WallLine& line) {
+  const Box box = boxOf(points, support, line);
+  const CellGrid grid(supportCellSize(scale), box.s0, box.s1, box.z0, box.z1);
+  std::vector<char> seen(grid.size(), 0);
+  for (const int i : support) {
+    const WallPoint& p = points[static_cast<std::size_t>(i)];
+    seen[grid.at(line.along(p.position), p.z)] = 1;
+  }
+  double on = 0.0;
+  double beside = 0.0;
+  for (const int i : candidates) {
+    const WallPoint& p = points[static_cast<std::size_t>(i)];
+    const double s = line.along(p.position);
+    if (s < box.s0 || s > box.s1 || p.z < box.z0 || p.z > box.z1) continue;
+    const double d = std::abs(line.across(p.position)) / scale.noise;
+    if (d < kBeside && seen[grid.at(s, p.z)] != 0) (d < kOn ? on : beside) += 1.0;
+  }
+  return on >= kMinOnShare * (on + beside);
+}
+
+// The heights without the few points at either end that may be of walls below and above.
+std::pair<double, double> mainHeights(const std::vector<WallPoint>& points,
+                                      const std::vector<int>& support) {
+  std::vector<double> heights;
+  for (const int i : support) heights.push_back(points[static_cast<std::size_t>(i)].z);
+  const auto quantile = [&](double share) {
+    const auto place = heights.begin() + static_cast<std::ptrdiff_t>(
+                                             share * static_cast<double>(heights.size() - 1));
+    std::nth_element(heights.begin(), place, heights.end());
+    return *place;
+  };
+  const double low = quantile(kStray);
+  return {low, quantile(1.0 - kStray)};
+}
+
 // Ends, heights, area and runs of the support.
 void describeSupport(const std::vector<WallPoint>& points, const std::vector<int>& support,
                      const WallScale& scale, WallLine& line) {
@@ -277,23 +438,9 @@ void describeSupport(const std::vector<WallPoint>& points, const std::vector<int
   line.support = support.size();
   line.s_min = box.s0;
   line.s_max = box.s1;
-  line.z_min = box.z0;
-  line.z_max = box.z1;
+  std::tie(line.z_min, line.z_max) = mainHeights(points, support);
   line.support_area = static_cast<double>(std::count(seen.begin(), seen.end(), 1)) * side * side;
-  line.runs.clear();
-  for (std::ptrdiff_t c = 0; c < grid.columns(); ++c) {
-    bool any = false;
-    for (std::ptrdiff_t r = 0; r < grid.rows(); ++r) {
-      any = any || seen[static_cast<std::size_t>(r * grid.columns() + c)] != 0;
-    }
-    if (!any) continue;
-    const double left = grid.left(c);
-    if (!line.runs.empty() && left - line.runs.back().second <= 1.5 * side) {
-      line.runs.back().second = std::min(left + side, box.s1);
-    } else {
-      line.runs.emplace_back(left, std::min(left + side, box.s1));
-    }
-  }
+  line.runs = runsOf(points, support, scale, line);
 }
 
 }  // namespace
@@ -311,18 +458,32 @@ std::vector<int> fitToSupport(const std::vector<WallPoint>& points,
     const std::vector<int> near = withinGate(points, pool, line, gate * scale.noise);
     support = inFullCells(points, near, scale, line);
     if (support.empty()) return {};
-    if (!options.fit_direction) support = inMainTiles(points, support, scale, line);
+    support = inMainTiles(points, support, scale, line);
     if (support.empty()) return {};
     fitLine(points, support, gate * scale.noise, options.fit_direction, line);
-    if (!options.fit_direction) continue;
-    const std::vector<int> flat = flatStretch(points, support, scale, line);
+    std::vector<int> flat = withoutLeaningRuns(points, support, scale, line);
+    if (options.fit_direction && !flat.empty()) {
+      flat = flatStretch(points, alongMainHalf(points, flat, scale, line), scale, line);
+    }
     if (flat.empty()) return {};
+    if (flat.size() == support.size()) continue;
+    support = flat;
+    if (options.fit_direction) pool = flat;
+    fitLine(points, support, gate * scale.noise, options.fit_direction, line);
+  }
+  if (!options.fit_direction) {
+    // A locked direction may be that of another wall, whose line would lean over this one; or the
+    // line meets another wall further on.
+    const std::vector<int> flat = flatStretch(points, support, scale, line);
+    if (static_cast<double>(flat.size()) < kMinFlatShare * static_cast<double>(support.size())) {
+      return {};
+    }
     if (flat.size() < support.size()) {
       support = flat;
-      pool = flat;
-      fitLine(points, support, gate * scale.noise, true, line);
+      fitLine(points, support, kGates[std::size(kGates) - 1] * scale.noise, false, line);
     }
   }
+  if (!isSurface(points, support, candidates, scale, line)) return {};
   describeSupport(points, support, scale, line);
   return support;
 }

@@ -29,7 +29,7 @@ struct WallLine {
   double offset = 0.0;
   double s_min = 0.0;  ///< ends of the support
   double s_max = 0.0;
-  double z_min = 0.0;
+  double z_min = 0.0;  ///< heights of the support, without 3 % of it at either end
   double z_max = 0.0;
   double support_area = 0.0;     ///< of the cells that hold points
   std::size_t support = 0;       ///< points

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <storey/segmentation/detail/cell_energy.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace storey::detail {
+
+/// A stretch of a line that bounds the inside from one side without a break: an edge of an outline.
+struct OutlineRun {
+  std::size_t first = 0;  ///< edges of the plan, one after the other along their line
+  std::size_t last = 0;
+  int side = 0;       ///< +1: the inside is behind the line, -1: ahead of it
+  double seen = 0.0;  ///< area that points confirm
+};
+
+/// The runs of one block's outline, by line and then along it.
+std::vector<OutlineRun> runsOf(const LineArrangement& plan, const CellTerms& terms,
+                               const std::vector<char>& inside);
+
+/// One block of a stack: its labels and their runs.
+struct BlockOutline {
+  const std::vector<char>* inside;
+  const std::vector<OutlineRun>* runs;
+};
+
+/// Number of faces of the solid that stands on the outlines, bottom to top: the runs, those of
+/// neighbouring blocks that meet being one, and the connected parts of what one block covers and its
+/// neighbour does not.
+std::size_t countFaces(const LineArrangement& plan, const std::vector<BlockOutline>& blocks);
+
+}  // namespace storey::detail

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/outline_faces.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace storey::detail {
+namespace {
+
+constexpr double kTouching = 1e-6;  // of the length of an edge
+
+// +1 if the inside is behind the line, -1 if it is ahead, 0 if the edge is no boundary.
+int sideOf(const PlanEdge& edge, const std::vector<char>& inside) {
+  return int{inside[static_cast<std::size_t>(edge.behind)]} -
+         int{inside[static_cast<std::size_t>(edge.ahead)]};
+}
+
+// Runs of the upper block that go on what the lower one has begun.
+std::size_t countContinued(const std::vector<OutlineRun>& lower,
+                           const std::vector<OutlineRun>& upper) {
+  std::size_t continued = 0;
+  auto from = lower.begin();  // both are sorted, and runs of one block do not overlap
+  for (const OutlineRun& run : upper) {
+    while (from != lower.end() && from->last < run.first) ++from;
+    bool meets = false;
+    for (auto other = from; other != lower.end() && other->first <= run.last; ++other) {
+      meets = meets || other->side == run.side;
+    }
+    continued += meets ? 1 : 0;
+  }
+  return continued;
+}
+
+// Connected parts of the cells that one block has inside and the other has not, either way.
+// \param lower, upper null: there is no block
+std::size_t countCaps(const LineArrangement& plan, const std::vector<char>* lower,
+                      const std::vector<char>* upper) {
+  const std::size_t n = plan.cells.size();
+  std::vector<int> change(n);
+  for (std::size_t c = 0; c < n; ++c) {
+    change[c] = (lower != nullptr ? int{(*lower)[c]} : 0) - (upper != nullptr ? int{(*upper)[c]} : 0);
+  }
+  std::vector<std::size_t> root(n);
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto find = [&](std::size_t c) {
+    while (root[c] != c) c = root[c] = root[root[c]];
+    return c;
+  };
+  for (const PlanEdge& edge : plan.edges) {
+    const auto a = static_cast<std::size_t>(edge.behind);
+    const auto b = static_cast<std::size_t>(edge.ahead);
+    if (change[a] != 0 && change[a] == change[b]) root[find(b)] = find(a);
+  }
+  std::size_t parts = 0;
+  for (std::size_t c = 0; c < n; ++c) parts += change[c] != 0 && root[c] == c ? 1 : 0;
+  return parts;
+}
+
+}  // namespace
+
+std::vector<OutlineRun> runsOf(const LineArrangement& plan, const CellTerms& terms,
+                               const std::vector<char>& inside) {
+  std::vector<OutlineRun> runs;
+  int side = 0;  // of the edge before
+  for (std::size_t e = 0; e < plan.edges.size(); ++e) {
+    const PlanEdge& edge = plan.edges[e];
+    const int own = sideOf(edge, inside);
+    const bool joined = e > 0 && side == own && plan.edges[e - 1].line == edge.line &&
+                        edge.s_min - plan.edges[e - 1].s_max < kTouching * edge.length();
+    side = own;
+    if (own == 0) continue;
+    if (!joined) runs.push_back({e, e, own, 0.0});
+    runs.back().last = e;
+    runs.back().seen += std::max(0.0, own * terms.signed_area[e]);
+  }
+  return runs;
+}
+
+std::size_t countFaces(const LineArrangement& plan, const std::vector<BlockOutline>& blocks) {
+  std::size_t faces = 0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    faces += blocks[b].runs->size();
+    faces += countCaps(plan, b > 0 ? blocks[b - 1].inside : nullptr, blocks[b].inside);
+    if (b > 0) faces -= countContinued(*blocks[b - 1].runs, *blocks[b].runs);
+  }
+  if (!blocks.empty()) faces += countCaps(plan, blocks.back().inside, nullptr);
+  return faces;
+}
+
+}  // namespace storey::detail
