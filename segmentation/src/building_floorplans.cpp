@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/segmentation/detail/building_floorplans.h>
 #include <storey/segmentation/detail/line_refit.h>
+#include <storey/segmentation/detail/outline_faces.h>
 #include <storey/segmentation/detail/outline_pruning.h>
 #include <storey/segmentation/detail/wall_lines.h>
 
@@ -17,6 +18,10 @@ constexpr double kSameLine = 1.0;            // noise deviations: opposite walls
 constexpr int kPasses = 2;                   // the second with the walls that bound a block alone
 constexpr double kFaceCost = 0.5;             // of the least area of a wall
 constexpr double kBlockFaces = 2.0;           // faces that one more block has at least
+// Where most of a building is missing, closing it costs more than its walls have to show, unless
+// what was not seen is taken as cheaper.
+constexpr double kMinExplained = 0.5;  // of the area of the walls found
+constexpr double kLeastGap = 0.1;
 constexpr double kShortEdge = 3.0;           // noise deviations
 constexpr double kCornerTolerance = 0.05;    // noise deviations
 
@@ -159,6 +164,15 @@ void dropWeakParts(const LineArrangement& plan, double keep, BuildingFloorplans&
   result.layers = std::move(kept);
 }
 
+// Area of the walls seen that bound the blocks.
+double explainedArea(const LineArrangement& plan, const std::vector<CellBlock>& blocks) {
+  double area = 0.0;
+  for (const CellBlock& block : blocks) {
+    for (const OutlineRun& run : runsOf(plan, block.terms, block.inside)) area += run.seen;
+  }
+  return area;
+}
+
 }  // namespace
 
 BuildingFloorplans extractBuildingFloorplans(const std::vector<WallPoint>& points,
@@ -174,6 +188,8 @@ BuildingFloorplans extractBuildingFloorplans(const std::vector<WallPoint>& point
   if (result.walls.size() < 2) return result;
   result.hypotheses = hypothesiseLines(result.walls, sample_scale);
 
+  double wall_area = 0.0;
+  for (const WallLine& wall : result.walls) wall_area += wall.support_area;
   CellEnergyOptions energy;
   const double face_cost = kFaceCost * options.min_wall_area;
   energy.block = options.block_cost > 0.0 ? options.block_cost : kBlockFaces * face_cost;
@@ -190,9 +206,17 @@ BuildingFloorplans extractBuildingFloorplans(const std::vector<WallPoint>& point
     result.plan = arrangeLines(lines, box.low, box.high, tolerance);
     evidence = gatherEvidence(result.plan, points, scale);
     if (pass == 0) result.levels = findLevels(evidence);
-    result.blocks = labelCells(result.plan, evidence, result.levels, level_points, energy);
-    pruneOutlines(result.plan, energy.gap, face_cost, result.blocks);
+    while (true) {
+      result.blocks = labelCells(result.plan, evidence, result.levels, level_points, energy);
+      pruneOutlines(result.plan, energy.gap, face_cost, result.blocks);
+      if (explainedArea(result.plan, result.blocks) > kMinExplained * wall_area ||
+          energy.gap < kLeastGap) {
+        break;
+      }
+      energy.gap *= 0.5;
+    }
   }
+  result.gap = energy.gap;
   for (const CellBlock& block : result.blocks) {
     FloorplanLayer layer;
     layer.z_min = evidence.heightOf(block.first_bin);

@@ -8,7 +8,7 @@
 namespace storey::detail {
 namespace {
 
-constexpr double kSameDirection = 0.01;  // rad
+constexpr double kSameDirection = 0.07;  // rad, 4 degrees: as good a guess as any between
 constexpr double kMinCrossing = 0.26;    // rad, 15 degrees: flatter lines close nothing
 constexpr double kMinRun = 15.0;         // noise deviations
 constexpr std::size_t kMaxHypotheses = 30;

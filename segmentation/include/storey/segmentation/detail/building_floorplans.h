@@ -21,6 +21,7 @@ struct BuildingFloorplans {
   std::vector<PlanLine> hypotheses;  ///< lines for walls that were not seen
   LineArrangement plan;              ///< of walls and hypotheses; cells of the plan
   std::vector<std::size_t> levels;   ///< bins of the layers
+  double gap = 0.0;                  ///< cost of a wall not seen that was worked with
   std::vector<CellBlock> blocks;
   std::vector<FloorplanLayer> layers;  ///< parallel to `blocks` that have an outline, bottom to top
 };
