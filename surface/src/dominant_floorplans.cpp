@@ -85,7 +85,7 @@ DominantFloorplans selectDominantFloorplans(const std::vector<FloorplanLayer>& s
   FloorplanGrammar grammar;
   grammar.setEncoding(options.encoding);
   grammar.setLengthTolerance(options.length_tolerance);
-  grammar.encode(plans);
+  if (!grammar.encode(plans)) return result;
   result.dictionary_size = grammar.getDictionarySize();
   const Candidates candidates = findCandidates(grammar, plans.size());
   result.num_candidates = static_cast<int>(candidates.representative.size());

@@ -165,7 +165,7 @@ TEST(DominantFloorplans, NoFloorplansGiveNoBlocks) {
   EXPECT_EQ(found.num_types, 0);
 }
 
-TEST(DominantFloorplans, DISABLED_ABadToleranceGivesNoBlocks) {
+TEST(DominantFloorplans, ABadToleranceGivesNoBlocks) {
   DominantFloorplanOptions bad = options();
   bad.length_tolerance = 0.0;
   EXPECT_TRUE(selectDominantFloorplans(slicesOf({{{kL}, 4}}, 7), bad).blocks.empty());

@@ -39,6 +39,7 @@ struct DominantFloorplans {
 /// skipped: they take part in nothing, and a gap of skipped slices between two blocks is shared
 /// half and half.
 /// \param slices bottom to top
+/// \return no blocks if no slice has a floorplan or, after a PCL_ERROR, a tolerance is not positive
 DominantFloorplans selectDominantFloorplans(const std::vector<FloorplanLayer>& slices,
                                             const DominantFloorplanOptions& options);
 
