@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "layer_branch_and_bound.h"
+
 #include <algorithm>
 #include <numeric>
 #include <queue>
@@ -14,6 +16,7 @@ using detail::kInfinity;
 using detail::solveChain;
 
 constexpr int kSubgradientSteps = 60;
+constexpr double kPriceStep = 0.1;  // of the first price
 
 enum class Choice : char { Open, In, Out };
 
@@ -37,12 +40,15 @@ struct LaterBound {
 
 class BranchAndBound {
  public:
-  BranchAndBound(const LayerEnergy& energy, std::size_t max_work)
+  BranchAndBound(const LayerEnergy& energy, std::size_t max_work, double price,
+                 const std::vector<int>& known)
       : energy_(energy),
         max_work_(max_work),
         limit_(detail::labelLimit(energy)),
+        price_(limit_ < energy.num_labels ? price : 0.0),
         rounding_(detail::roundingOf(energy)) {
     best_.energy = kInfinity;
+    if (!known.empty()) keepIfBest(known);
   }
 
   LayerLabeling run() {
@@ -69,21 +75,15 @@ class BranchAndBound {
   }
 
  private:
-  Branch makeRoot() {
+  Branch makeRoot() const {
     Branch root;
     root.choices.assign(energy_.num_labels, Choice::Open);
+    root.price = price_;
     root.multipliers.assign(energy_.num_nodes * energy_.num_labels, 0.0);
     for (std::size_t k = 0; k < root.multipliers.size(); ++k) {
-      root.multipliers[k] =
-          energy_.label_cost[k % energy_.num_labels] / static_cast<double>(energy_.num_nodes);
+      root.multipliers[k] = (energy_.label_cost[k % energy_.num_labels] + price_) /
+                            static_cast<double>(energy_.num_nodes);
     }
-    // One label is always allowed; what all of them would gain over it is the scale of prices.
-    for (std::size_t t = 0; t < energy_.num_labels; ++t) {
-      keepIfBest(std::vector<int>(energy_.num_nodes, static_cast<int>(t)));
-    }
-    const ChainSolution free = solveChain(energy_, energy_.data);
-    ++best_.work;
-    price_step_ = std::max(0.0, best_.energy - free.energy) / static_cast<double>(limit_);
     return root;
   }
 
@@ -211,7 +211,7 @@ class BranchAndBound {
     }
     if (count == limit_) return false;
     const double price =
-        std::max(0.0, branch.price + (count > limit_ ? rate : -rate) * price_step_);
+        std::max(0.0, branch.price + (count > limit_ ? rate : -rate) * kPriceStep * price_);
     if (price == branch.price) return false;
     for (std::size_t k = 0; k < branch.multipliers.size(); ++k) {
       const double cost = energy_.label_cost[k % energy_.num_labels];
@@ -250,37 +250,17 @@ class BranchAndBound {
   const LayerEnergy& energy_;
   std::size_t max_work_;
   std::size_t limit_;  // of labels in use
+  double price_;
   double rounding_;
-  double price_step_ = 0.0;
   std::priority_queue<Branch, std::vector<Branch>, LaterBound> open_;
   LayerLabeling best_;
 };
 
 }  // namespace
 
-LayerLabeling minimizeLayerEnergy(const LayerEnergy& energy, std::size_t max_work) {
-  if (energy.num_nodes == 0 || energy.num_labels == 0 || !detail::isConsistent(energy)) return {};
-  return BranchAndBound(energy, max_work).run();
-}
-
-std::vector<LayerTradeOff> tradeOffLabels(const LayerEnergy& energy, std::size_t max_work) {
-  std::vector<LayerTradeOff> front;
-  if (energy.num_nodes == 0 || energy.num_labels == 0 || !detail::isConsistent(energy))
-    return front;
-  LayerEnergy free = energy;
-  free.label_cost.assign(energy.num_labels, 0.0);
-  const double rounding = detail::roundingOf(free);
-  const double least = solveChain(free, free.data).energy;
-  double reached = kInfinity;
-  for (free.max_labels = 1;
-       free.max_labels <= detail::labelLimit(energy) && reached > least + rounding;
-       ++free.max_labels) {
-    LayerLabeling labeling = minimizeLayerEnergy(free, max_work);
-    if (labeling.energy >= reached - rounding) continue;
-    reached = labeling.energy;
-    front.push_back({detail::countLabels(labeling.labels), std::move(labeling)});
-  }
-  return front;
+LayerLabeling detail::branchAndBound(const LayerEnergy& energy, std::size_t max_work, double price,
+                                     const std::vector<int>& known) {
+  return BranchAndBound(energy, max_work, price, known).run();
 }
 
 }  // namespace storey

@@ -223,6 +223,7 @@ TYPED_TEST(MRFReconstruction, IsAPclClassWithGetters) {
   r->setNoise(0.1);
   r->setSmoothness(0.2);
   r->setLabelCost(0.3);
+  r->setMaxTypes(4);
   r->setGrid(0.001);
   r->setExactMinimization(false);
   r->setEncoding(FloorplanGrammar::Encoding::Turns);
@@ -231,6 +232,7 @@ TYPED_TEST(MRFReconstruction, IsAPclClassWithGetters) {
   EXPECT_EQ(constant->getNoise(), 0.1);
   EXPECT_EQ(constant->getSmoothness(), 0.2);
   EXPECT_EQ(constant->getLabelCost(), 0.3);
+  EXPECT_EQ(constant->getMaxTypes(), 4U);
   EXPECT_EQ(constant->getGrid(), 0.001);
   EXPECT_FALSE(constant->getExactMinimization());
   EXPECT_EQ(constant->getEncoding(), FloorplanGrammar::Encoding::Turns);

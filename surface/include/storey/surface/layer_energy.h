@@ -37,7 +37,7 @@ struct LayerLabeling {
 /// \note Deviation: the paper uses alpha-expansion, which is not guaranteed here, for its pairwise
 /// term with k2 = 3 k1 is no metric.
 /// \param max_work limit of dynamic programs, each O(num_nodes num_labels^2); a count, not a time,
-/// so that the result does not depend on the machine. It is looked at between branches, of 124
+/// so that the result does not depend on the machine. It is looked at between branches, of 122
 /// programs at the most
 /// \return no labels, after a PCL_ERROR, if a size is wrong or a cost negative or not finite
 LayerLabeling minimizeLayerEnergy(const LayerEnergy& energy, std::size_t max_work = 20000);
