@@ -16,7 +16,6 @@ using detail::kInfinity;
 using detail::solveChain;
 
 constexpr int kSubgradientSteps = 60;
-constexpr double kPriceStep = 0.1;  // of the first price
 
 enum class Choice : char { Open, In, Out };
 
@@ -26,7 +25,7 @@ enum class Choice : char { Open, In, Out };
 struct Branch {
   std::vector<Choice> choices;
   std::vector<double> multipliers;  // num_nodes x num_labels, sums over nodes <= cost + price
-  double price = 0.0;               // >= 0; 0 where any number of labels is allowed
+  double price = 0.0;               // of each label; 0 without a limit or with none open
   double bound = -kInfinity;
 
   std::size_t count(Choice choice) const {
@@ -116,8 +115,8 @@ class BranchAndBound {
     if (branch.count(Choice::Open) == 0) branch.price = 0.0;
   }
 
-  // Raises the branch's bound by subgradient steps on the multipliers and the price, keeps each
-  // labelling that is seen on the way if it is the best so far, and queues the branch if open.
+  // Raises the branch's bound by subgradient steps on the multipliers, keeps each labelling that
+  // is seen on the way if it is the best so far, and puts the branch into the queue if open.
   void relax(Branch branch) {
     closeIfDecided(branch);
     Branch best = branch;
@@ -135,10 +134,7 @@ class BranchAndBound {
         best.bound = bound;
       }
       if (best.bound >= best_.energy - rounding_) return;
-      const double rate = 1.0 / (1.0 + 0.3 * step);
-      const bool shifted = shiftMultipliers(branch, labels, rate);
-      const bool priced = adjustPrice(branch, labels, rate);
-      if (!shifted && !priced) break;
+      if (!shiftMultipliers(branch, labels, 1.0 / (1.0 + 0.3 * step))) break;
     }
     keepMostUsed(best, labels);
     open_.push(std::move(best));
@@ -166,8 +162,7 @@ class BranchAndBound {
     };
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return rank(a) > rank(b); });
-    std::vector<double> u = unary(branch);
-    for (std::size_t k = 0; k < u.size(); ++k) u[k] = kInfinity;
+    std::vector<double> u(energy_.data.size(), kInfinity);
     for (std::size_t place = 0; place < limit_; ++place) {
       for (std::size_t k = order[place]; k < u.size(); k += m) u[k] = energy_.data[k];
     }
@@ -198,31 +193,6 @@ class BranchAndBound {
       for (const std::size_t i : users) branch.multipliers[i * m + t] += target;
     }
     return moved;
-  }
-
-  // Too many labels in use: each becomes dearer; fewer than allowed: cheaper. False if it stays.
-  bool adjustPrice(Branch& branch, const std::vector<int>& labels, double rate) const {
-    if (limit_ >= energy_.num_labels || branch.count(Choice::Open) == 0) return false;
-    std::vector<char> used(energy_.num_labels, 0);
-    for (const int label : labels) used[static_cast<std::size_t>(label)] = 1;
-    std::size_t count = 0;
-    for (std::size_t t = 0; t < used.size(); ++t) {
-      if (branch.choices[t] == Choice::In || used[t] != 0) ++count;
-    }
-    if (count == limit_) return false;
-    const double price =
-        std::max(0.0, branch.price + (count > limit_ ? rate : -rate) * kPriceStep * price_);
-    if (price == branch.price) return false;
-    for (std::size_t k = 0; k < branch.multipliers.size(); ++k) {
-      const double cost = energy_.label_cost[k % energy_.num_labels];
-      if (cost + branch.price > 0.0) {
-        branch.multipliers[k] *= (cost + price) / (cost + branch.price);
-      } else {
-        branch.multipliers[k] = price / static_cast<double>(energy_.num_nodes);
-      }
-    }
-    branch.price = price;
-    return true;
   }
 
   // The open label whose use in the relaxed labelling is furthest from being paid for. There is

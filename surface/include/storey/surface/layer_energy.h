@@ -32,13 +32,13 @@ struct LayerLabeling {
 
 /// Minimises the energy globally. For a given set of labels the chain is solved exactly by dynamic
 /// programming; branch and bound goes over the sets, with bounds by Lagrangian relaxation of the
-/// label costs (a label's cost is spread over the nodes that use it) and of the limit on their
-/// number (one price for every label, paid back as often as labels are allowed).
+/// label costs (a label's cost is spread over the nodes that use it). A limit on the number of
+/// labels is relaxed too: one price for every label, paid back as often as labels are allowed.
 /// \note Deviation: the paper uses alpha-expansion, which is not guaranteed here, for its pairwise
 /// term with k2 = 3 k1 is no metric.
 /// \param max_work limit of dynamic programs, each O(num_nodes num_labels^2); a count, not a time,
 /// so that the result does not depend on the machine. It is looked at between branches, of 122
-/// programs at the most
+/// programs at the most; a limit on the labels takes a few searches of one branch or more each
 /// \return no labels, after a PCL_ERROR, if a size is wrong or a cost negative or not finite
 LayerLabeling minimizeLayerEnergy(const LayerEnergy& energy, std::size_t max_work = 20000);
 
