@@ -20,28 +20,23 @@ using detail::labelCells;
 using detail::LevelPoint;
 using detail::WallEvidence;
 
-constexpr double kDensity = 50.0;  // points per unit of wall area
 constexpr double kBin = 0.5;
 
 // Confirmed shares of the area of each edge, one row a layer; negative: facing the other way.
 using Shares = std::vector<std::vector<double>>;
 
-// Counts whose difference is share x area x density. Where most points lie on edges with a share
-// of 1, that is the density of a layer, however it is estimated.
 WallEvidence evidenceOf(const LineArrangement& plan, const Shares& shares,
                         const std::vector<std::size_t>& levels) {
   WallEvidence evidence;
   evidence.bin = kBin;
   evidence.num_bins = levels.back();
-  evidence.ahead.assign(plan.edges.size() * evidence.num_bins, 0.0f);
-  evidence.behind = evidence.ahead;
+  evidence.seen.assign(plan.edges.size() * evidence.num_bins, 0.0f);
+  evidence.ahead = evidence.behind = evidence.seen;
   for (std::size_t l = 0; l + 1 < levels.size(); ++l) {
     for (std::size_t e = 0; e < plan.edges.size(); ++e) {
-      const double count = shares[l][e] * plan.edges[e].length() * kBin * kDensity;
       for (std::size_t b = levels[l]; b < levels[l + 1]; ++b) {
-        const std::size_t slot = e * evidence.num_bins + b;
-        (count > 0.0 ? evidence.ahead : evidence.behind)[slot] =
-            static_cast<float>(std::abs(count));
+        evidence.seen[e * evidence.num_bins + b] =
+            static_cast<float>(shares[l][e] * plan.edges[e].length() * kBin);
       }
     }
   }
@@ -69,20 +64,27 @@ double energyOf(const LineArrangement& plan, const Shares& shares,
   return sum;
 }
 
-// The least energy of one block over all labelings of the cells that are not at the border.
-double leastOfBlock(const LineArrangement& plan, const Shares& shares,
-                    const std::vector<std::size_t>& levels, std::size_t first, std::size_t last,
-                    double gap) {
+// Calls `visit` with every labelling of the cells that are not at the border.
+template <typename Visit>
+void forAllInsides(const LineArrangement& plan, const Visit& visit) {
   std::vector<std::size_t> free;
   for (std::size_t c = 0; c < plan.cells.size(); ++c) {
     if (plan.at_border[c] == 0) free.push_back(c);
   }
-  double least = std::numeric_limits<double>::infinity();
   std::vector<char> inside(plan.cells.size(), 0);
   for (unsigned mask = 0; mask < 1U << free.size(); ++mask) {
     for (std::size_t i = 0; i < free.size(); ++i) inside[free[i]] = (mask >> i & 1U) != 0 ? 1 : 0;
-    least = std::min(least, energyOf(plan, shares, levels, first, last, gap, inside));
+    visit(inside);
   }
+}
+
+double leastOfBlock(const LineArrangement& plan, const Shares& shares,
+                    const std::vector<std::size_t>& levels, std::size_t first, std::size_t last,
+                    double gap) {
+  double least = std::numeric_limits<double>::infinity();
+  forAllInsides(plan, [&](const std::vector<char>& inside) {
+    least = std::min(least, energyOf(plan, shares, levels, first, last, gap, inside));
+  });
   return least;
 }
 
@@ -121,26 +123,17 @@ Shares randomShares(const LineArrangement& plan, std::size_t num_layers, std::mt
         inside[c] = plan.at_border[c] == 0 && unit(random) < 0.6 ? 1 : 0;
       }
     }
-    std::vector<double> layer(plan.edges.size(), 0.0);
-    double whole = 0.0;
-    double in_part = 0.0;
-    for (std::size_t e = 0; e < layer.size(); ++e) {
-      const PlanEdge& edge = plan.edges[e];
+    std::vector<double> layer;
+    for (const PlanEdge& edge : plan.edges) {
       const int wall = inside[static_cast<std::size_t>(edge.behind)] -
                        inside[static_cast<std::size_t>(edge.ahead)];
       const double luck = unit(random);
-      if (wall != 0 && luck < 0.7) {
-        layer[e] = wall;
-        whole += edge.length();
-      } else if (wall != 0 && luck < 0.9) {
-        layer[e] = wall * unit(random);
-      } else if (wall == 0 && luck < 0.1) {
-        layer[e] = 0.4 * (unit(random) - 0.5);
-      }
-      if (std::abs(layer[e]) < 1.0) in_part += std::abs(layer[e]) * edge.length();
+      const double part = 2.0 * unit(random) - 1.0;
+      layer.push_back(wall != 0 ? (luck < 0.6   ? wall
+                                   : luck < 0.9 ? wall * part
+                                                : 0.0)
+                                : (luck < 0.1 ? 0.4 * part : 0.0));
     }
-    // Without a clear majority of whole walls the density would be another one: none at all.
-    if (whole < 2.0 * in_part) layer.assign(plan.edges.size(), 0.0);
     shares.push_back(layer);
   }
   return shares;
@@ -193,18 +186,69 @@ TEST(LabelCells, IsTheMinimumOverAllLabelingsAndAllPartitions) {
       for (std::size_t c = 0; c < plan.cells.size(); ++c) {
         EXPECT_TRUE(plan.at_border[c] == 0 || block.inside[c] == 0);
       }
-      energy +=
-          options.block + energyOf(plan, shares, levels, layer, last, options.gap, block.inside);
+      const double own = energyOf(plan, shares, levels, layer, last, options.gap, block.inside);
+      EXPECT_NEAR(block.energy, own, 1e-4);
+      energy += options.block + own;
       layer = last;
     }
     EXPECT_EQ(layer, num_layers);
     const double least = leastOfAll(plan, shares, levels, options);
-    // Counts are floats: good to 1e-7 of all wall area, 100 or so.
+    // Seen areas are floats: good to 1e-7 of all wall area, some hundreds.
     EXPECT_NEAR(energy, least, 1e-4) << "round " << round;
   }
   EXPECT_GT(with_blocks[1], 0);
   EXPECT_GT(with_blocks[2], 0);
   EXPECT_GT(with_blocks[3] + with_blocks[4], 0) << "never more than two blocks: weak cases";
+}
+
+TEST(MinimumCut, IsTheMinimumOfAllLabelingsThatTiedEdgesAllow) {
+  // Costs in small whole numbers: many labelings have the least energy.
+  std::mt19937 random(2);
+  int constrained = 0;
+  for (int round = 0; round < 60; ++round) {
+    const LineArrangement plan = smallPlan(round, random);
+    detail::CellTerms terms;
+    std::vector<char> tied;
+    for (std::size_t e = 0; e < plan.edges.size(); ++e) {
+      terms.area.push_back(static_cast<double>(random() % 4));
+      const auto part = static_cast<double>(random() % 3) - 1.0;
+      terms.signed_area.push_back(part * terms.area[e]);
+      tied.push_back(round % 3 == 0 && random() % 4 == 0 ? 1 : 0);
+    }
+    for (std::size_t c = 0; c < plan.cells.size(); ++c) {
+      terms.unary.push_back(static_cast<double>(random() % 5) - 2.0);
+    }
+    double least = std::numeric_limits<double>::infinity();
+    double least_untied = least;
+    std::ptrdiff_t fewest = 0;
+    forAllInsides(plan, [&](const std::vector<char>& inside) {
+      double energy = 0.0;
+      bool allowed = true;
+      for (std::size_t c = 0; c < inside.size(); ++c) energy += inside[c] * terms.unary[c];
+      for (std::size_t e = 0; e < plan.edges.size(); ++e) {
+        const int ahead = inside[static_cast<std::size_t>(plan.edges[e].ahead)];
+        const int behind = inside[static_cast<std::size_t>(plan.edges[e].behind)];
+        energy += terms.signed_area[e] * (ahead - behind);
+        if (ahead == behind) continue;
+        energy += 0.5 * (terms.area[e] - std::abs(terms.signed_area[e]));
+        allowed = allowed && tied[e] == 0;
+      }
+      least_untied = std::min(least_untied, energy);
+      if (!allowed || energy > least) return;
+      const auto count = std::count(inside.begin(), inside.end(), 1);
+      fewest = energy < least ? count : std::min(fewest, count);
+      least = energy;
+    });
+    std::vector<char> inside;
+    EXPECT_NEAR(minimumCut(plan, terms, 0.5, tied, inside), least, 1e-6) << "round " << round;
+    EXPECT_EQ(std::count(inside.begin(), inside.end(), 1), fewest) << "round " << round;
+    for (std::size_t e = 0; e < plan.edges.size(); ++e) {
+      EXPECT_TRUE(tied[e] == 0 || inside[static_cast<std::size_t>(plan.edges[e].ahead)] ==
+                                      inside[static_cast<std::size_t>(plan.edges[e].behind)]);
+    }
+    if (least > least_untied) ++constrained;
+  }
+  EXPECT_GT(constrained, 5) << "ties that bind nothing test nothing";
 }
 
 // --- single cases -------------------------------------------------------------------------------
