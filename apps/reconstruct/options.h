@@ -29,6 +29,7 @@ struct Options {
   double slice_thickness = 0.0;
   double smoothness = 0.1;
   double label_cost = 1.0;
+  int max_types = 0;  ///< of floorplans; 0: no limit
   double grid = 0.0;
   FloorplanGrammar::Encoding encoding = FloorplanGrammar::Encoding::Walls;
   detail::LinkingMethod linking = detail::LinkingMethod::Optimal;

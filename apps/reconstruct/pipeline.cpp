@@ -255,6 +255,7 @@ class Pipeline {
     reconstruction.setNoise(result_.noise);
     reconstruction.setSmoothness(options_.smoothness);
     reconstruction.setLabelCost(options_.label_cost);
+    reconstruction.setMaxTypes(static_cast<std::size_t>(options_.max_types));
     reconstruction.setEncoding(options_.encoding);
     reconstruction.setExactMinimization(options_.exact);
     reconstruction.setGrid(options_.grid);

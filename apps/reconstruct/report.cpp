@@ -40,6 +40,7 @@ Json describeParameters(const Options& o) {
           {"slice_thickness", o.slice_thickness},
           {"smoothness", o.smoothness},
           {"label_cost", o.label_cost},
+          {"max_types", o.max_types},
           {"encoding", o.encoding == FloorplanGrammar::Encoding::Walls ? "walls" : "turns"},
           {"linking", o.linking == detail::LinkingMethod::Optimal ? "optimal" : "greedy"},
           {"minimization", o.exact ? "exact" : "alpha-expansion"}};
@@ -98,6 +99,14 @@ Json describeLayers(const Result& r) {
                       {"edges", countEdges(storey.plan)},
                       {"area", area(storey.plan)}});
   }
+  Json trade_off = Json::array();  // the least energy without label costs for each number of types
+  for (const LayerTradeOff& point : d.trade_off) {
+    trade_off.push_back({{"types", point.num_labels},
+                         {"energy", point.labeling.energy},
+                         {"lower_bound", point.labeling.lower_bound},
+                         {"optimal", point.labeling.optimal},
+                         {"candidates", point.labeling.labels}});
+  }
   return {{"types", d.num_types},
           {"candidates", d.num_candidates},
           {"dictionary_size", d.dictionary_size},
@@ -105,6 +114,7 @@ Json describeLayers(const Result& r) {
           {"lower_bound", d.labeling.lower_bound},
           {"optimal", d.labeling.optimal},
           {"slice_types", d.slice_types},
+          {"trade_off", trade_off},
           {"blocks", blocks}};
 }
 

@@ -39,7 +39,7 @@ struct Link {
   bool corner = true;  // the two lines meet; otherwise a hypothetical edge joins them
 };
 
-Link linkBetween(const LineSegment& from, const LineSegment& to) {
+Link linkBetween(const LineSegment& from, const LineSegment& to, double tolerance) {
   const Eigen::Vector2d gap = to.start - from.end;
   Link link;
   link.cost = kHypothesisPenalty * gap.norm();
@@ -55,30 +55,34 @@ Link linkBetween(const LineSegment& from, const LineSegment& to) {
     link.cost = std::min(link.cost, cost);
     return link;
   }
-  if (std::abs(std::sin(turn)) < std::sin(kParallelAngle)) return link;  // antiparallel
-  const Eigen::Vector2d corner =
-      intersect(from.normal, from.normal.dot(from.end), to.normal, to.normal.dot(to.start));
-  const double ahead = (corner - from.end).dot(t1);
-  const double behind = (to.start - corner).dot(t2);
+  const double sine = cross(t1, t2);
+  if (std::abs(sine) < std::sin(kParallelAngle)) return link;  // antiparallel
+  // gap = ahead t1 + behind t2: what the two walls lack up to their corner, < 0 what they
+  // overshoot.
+  const double ahead = cross(gap, t2) / sine;
+  const double behind = cross(t1, gap) / sine;
   const auto signed_cost = [](double x) { return x < 0.0 ? -kCutPenalty * x : x; };
   const double cost = signed_cost(ahead) + signed_cost(behind);
   const bool cuts_too_much = ahead < -0.5 * from.length() || behind < -0.5 * to.length();
-  const bool detour = ahead + behind > kMaxCornerDetour * gap.norm() + 1e-12;
-  if (!cuts_too_much && (cost <= link.cost || (!detour && ahead >= 0.0 && behind >= 0.0))) {
+  // Ends are scattered before and behind their corner; within the tolerance they are its vertex.
+  const bool meet = std::abs(ahead) <= tolerance && std::abs(behind) <= tolerance;
+  const bool detour = std::abs(ahead) + std::abs(behind) > kMaxCornerDetour * gap.norm();
+  if (!cuts_too_much && (meet || cost <= link.cost || !detour)) {
     link.corner = true;
     link.cost = std::min(cost, link.cost);
   }
   return link;
 }
 
-std::vector<int> linkOptimally(const std::vector<LineSegment>& segments, double max_gap) {
+std::vector<int> linkOptimally(const std::vector<LineSegment>& segments,
+                               const LinkingOptions& options) {
   const std::size_t n = segments.size();
   std::vector<double> cost(n * n);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
-      double c = linkBetween(segments[i], segments[j]).cost;
+      double c = linkBetween(segments[i], segments[j], options.tolerance).cost;
       // A gap beyond t is as bad as leaving both segments out.
-      if (c > max_gap) c += kDropPenalty * (segments[i].length() + segments[j].length());
+      if (c > options.max_gap) c += kDropPenalty * (segments[i].length() + segments[j].length());
       cost[i * n + j] = i == j ? kDropPenalty * segments[i].length() : c;
     }
   }
@@ -91,10 +95,14 @@ std::vector<int> linkOptimally(const std::vector<LineSegment>& segments, double 
 
 // Algorithm 1, lines 1 to 11, growing both ends of the path. It stops as well when the two ends of
 // the path are nearer to each other than to any free segment: the component is closed.
-std::vector<int> linkGreedily(const std::vector<LineSegment>& segments, double max_gap) {
+std::vector<int> linkGreedily(const std::vector<LineSegment>& segments,
+                              const LinkingOptions& options) {
   const int n = static_cast<int>(segments.size());
   const auto at = [&](int i) -> const LineSegment& {
     return segments[static_cast<std::size_t>(i)];
+  };
+  const auto costBetween = [&](int i, int j) {
+    return linkBetween(at(i), at(j), options.tolerance).cost;
   };
   std::vector<int> next(segments.size(), -1);
   std::vector<char> free(segments.size(), 1);
@@ -113,11 +121,11 @@ std::vector<int> linkGreedily(const std::vector<LineSegment>& segments, double m
       int best = -1;
       bool at_end = true;
       double best_cost =
-          first == last ? max_gap : std::min(max_gap, linkBetween(at(last), at(first)).cost);
+          first == last ? options.max_gap : std::min(options.max_gap, costBetween(last, first));
       for (int i = 0; i < n; ++i) {
         if (!free[static_cast<std::size_t>(i)]) continue;
-        const double after = linkBetween(at(last), at(i)).cost;
-        const double before = linkBetween(at(i), at(first)).cost;
+        const double after = costBetween(last, i);
+        const double before = costBetween(i, first);
         if (std::min(after, before) < best_cost) {
           best = i;
           at_end = after <= before;
@@ -292,8 +300,8 @@ LineSegment fitSegment(const std::vector<Eigen::Vector2d>& points, const Eigen::
 std::vector<int> linkSegments(const std::vector<LineSegment>& segments,
                               const LinkingOptions& options) {
   if (segments.empty()) return {};
-  return options.method == LinkingMethod::Optimal ? linkOptimally(segments, options.max_gap)
-                                                  : linkGreedily(segments, options.max_gap);
+  return options.method == LinkingMethod::Optimal ? linkOptimally(segments, options)
+                                                  : linkGreedily(segments, options);
 }
 
 FloorplanRing closeRing(const std::vector<LineSegment>& cycle, const LinkingOptions& options) {
@@ -308,7 +316,7 @@ FloorplanRing closeRing(const std::vector<LineSegment>& cycle, const LinkingOpti
   for (std::size_t i = 0; i < cycle.size(); ++i) {
     const LineSegment& next = cycle[(i + 1) % cycle.size()];
     append(lineOf(cycle[i]));
-    if (linkBetween(cycle[i], next).corner ||
+    if (linkBetween(cycle[i], next, options.tolerance).corner ||
         sameLine(lineOf(cycle[i]), lineOf(next), options.tolerance)) {
       continue;
     }

@@ -34,6 +34,7 @@ LayerEnergy buildEnergy(const FloorplanGrammar& grammar, const Candidates& candi
                         std::size_t num_plans, const DominantFloorplanOptions& options) {
   LayerEnergy energy;
   energy.num_nodes = num_plans;
+  energy.max_labels = options.max_types;
   energy.num_labels = candidates.representative.size();
   for (std::size_t i = 0; i < num_plans; ++i) {  // (12)
     for (const std::size_t t : candidates.representative) {
@@ -85,12 +86,13 @@ DominantFloorplans selectDominantFloorplans(const std::vector<FloorplanLayer>& s
   FloorplanGrammar grammar;
   grammar.setEncoding(options.encoding);
   grammar.setLengthTolerance(options.length_tolerance);
-  grammar.encode(plans);
+  if (!grammar.encode(plans)) return result;
   result.dictionary_size = grammar.getDictionarySize();
   const Candidates candidates = findCandidates(grammar, plans.size());
   result.num_candidates = static_cast<int>(candidates.representative.size());
   const LayerEnergy energy = buildEnergy(grammar, candidates, plans.size(), options);
   result.labeling = options.exact ? minimizeLayerEnergy(energy) : expandLayerLabels(energy);
+  if (options.exact) result.trade_off = tradeOffLabels(energy);
 
   std::map<int, int> type_of;  // label -> type, in order of height
   std::vector<Floorplan> type_plans;

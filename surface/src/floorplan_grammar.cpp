@@ -176,14 +176,14 @@ FloorplanGrammar::Letter FloorplanGrammar::makeLetter(
   return {angle, extent / weight};
 }
 
-void FloorplanGrammar::encode(const std::vector<Floorplan>& plans) {
+bool FloorplanGrammar::encode(const std::vector<Floorplan>& plans) {
   plans_ = plans;
   letters_.clear();
   strings_.assign(plans.size(), {});
   if (!(length_tolerance_ > 0.0) || !(angle_tolerance_ > 0.0)) {
     PCL_ERROR("[storey::FloorplanGrammar] tolerances are %g and %g rad, expected > 0.\n",
               length_tolerance_, angle_tolerance_);
-    return;
+    return false;
   }
   std::vector<Occurrence> edges = collectEdges();
   buildDictionary(edges);
@@ -208,6 +208,7 @@ void FloorplanGrammar::encode(const std::vector<Floorplan>& plans) {
       strings_[p].push_back(std::move(string));
     }
   }
+  return true;
 }
 
 double FloorplanGrammar::distance(std::size_t a, std::size_t b) const {

@@ -208,12 +208,12 @@ TEST_P(Linking, AJogBelowTheToleranceGoes) {
   EXPECT_TRUE(sameCorners(plan.components[0].outer, box(0, 0.5 * jog, 10, 6), 1e-6));
 }
 
-TEST_P(Linking, DISABLED_WallsThatMeetExactlyNeedNoCompletion) {
+TEST_P(Linking, WallsThatMeetExactlyNeedNoCompletion) {
   expectFoundEverywhere({kL}, {}, 0.0);
   expectFoundEverywhere({box(0, 0, 20, 16)}, {clockwise(box(6, 5, 14, 11))}, 0.0);
 }
 
-TEST_P(Linking, DISABLED_WallsThatOvershootTheirCornerAreCutBack) {
+TEST_P(Linking, WallsThatOvershootTheirCornerAreCutBack) {
   // By noise; the second wall also where the first one ends just at the corner.
   expectFoundEverywhere({kL}, {}, -0.1);
   for (const double overshoot : {1e-12, 0.01, 0.1, 0.2}) {
@@ -225,6 +225,24 @@ TEST_P(Linking, DISABLED_WallsThatOvershootTheirCornerAreCutBack) {
       EXPECT_TRUE(sameCorners(plan.components[0].outer, box(0, 0, 10, 6), 1e-9)) << overshoot;
       EXPECT_EQ(countHypothetical(plan.components[0].outer), 0U);
     }
+  }
+}
+
+TEST_P(Linking, EndsScatteredAboutObliqueCornersGiveTheCorners) {
+  // Turns of 30 to 120 degrees; every end is before or behind its corner by less than a tolerance.
+  const Corners corners = {{0, 0}, {12, 0}, {17, 3}, {17, 12}, {8, 14}, {-2, 8}};
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> scatter(-0.4 * kTolerance, 0.4 * kTolerance);
+  for (int round = 0; round < 200; ++round) {
+    Segments segments = segmentsOf(corners);
+    for (LineSegment& s : segments) {
+      s.start += scatter(random) * s.tangent();
+      s.end += scatter(random) * s.tangent();
+    }
+    const Floorplan plan = planOf(segments, options());
+    ASSERT_EQ(plan.components.size(), 1U) << round;
+    EXPECT_TRUE(sameCorners(plan.components[0].outer, corners, 1e-9)) << round;
+    EXPECT_EQ(countHypothetical(plan.components[0].outer), 0U) << round;
   }
 }
 

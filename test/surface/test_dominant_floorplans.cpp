@@ -156,6 +156,32 @@ TEST(DominantFloorplans, ThePapersWayFindsTheClearCaseToo) {
   EXPECT_GE(expanded.labeling.energy, exact.labeling.energy - 1e-9);
 }
 
+TEST(DominantFloorplans, NoMoreTypesThanAllowed) {
+  const auto slices = slicesOf({{{kL}, 12}, {{kTower}, 9}, {{kTop}, 7}}, 1);
+  for (const bool exact : {true, false}) {
+    DominantFloorplanOptions limited = options();
+    limited.exact = exact;
+    for (limited.max_types = 1; limited.max_types <= 4; ++limited.max_types) {
+      const DominantFloorplans found = selectDominantFloorplans(slices, limited);
+      EXPECT_EQ(found.num_types, std::min(static_cast<int>(limited.max_types), 3));
+      EXPECT_TRUE(found.labeling.optimal || !exact);
+    }
+  }
+}
+
+TEST(DominantFloorplans, TheTradeOffIsListedUpToTheTypesThatThereAre) {
+  const auto slices = slicesOf({{{kL}, 12}, {{kTower}, 9}, {{kTop}, 7}}, 1);
+  const DominantFloorplans found = selectDominantFloorplans(slices, options());
+  ASSERT_EQ(found.trade_off.size(), 3U);
+  // L and tower share 4 walls, L and top 3 of 6, tower and top 3 of 4: NEdist 1/3, 1/2, 1/4.
+  // Changes cost 0.1 x 3 each. One type for all, the L: 9/3 + 7/2, the tower: 12/3 + 7/4. Two:
+  // the L and the tower, which stands for the top: 7/4 and a change. Three: two changes.
+  EXPECT_NEAR(found.trade_off[0].labeling.energy, 12.0 / 3.0 + 7.0 / 4.0, 1e-9);
+  EXPECT_NEAR(found.trade_off[1].labeling.energy, 7.0 / 4.0 + 0.3, 1e-9);
+  EXPECT_NEAR(found.trade_off[2].labeling.energy, 0.6, 1e-9);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(found.trade_off[k].num_labels, k + 1);
+}
+
 TEST(DominantFloorplans, NoFloorplansGiveNoBlocks) {
   EXPECT_TRUE(selectDominantFloorplans({}, options()).blocks.empty());
   const DominantFloorplans found =
@@ -165,7 +191,7 @@ TEST(DominantFloorplans, NoFloorplansGiveNoBlocks) {
   EXPECT_EQ(found.num_types, 0);
 }
 
-TEST(DominantFloorplans, DISABLED_ABadToleranceGivesNoBlocks) {
+TEST(DominantFloorplans, ABadToleranceGivesNoBlocks) {
   DominantFloorplanOptions bad = options();
   bad.length_tolerance = 0.0;
   EXPECT_TRUE(selectDominantFloorplans(slicesOf({{{kL}, 4}}, 7), bad).blocks.empty());

@@ -205,41 +205,6 @@ TEST(GrammarOfTurns, StartsAtTheCornerNearestToTheFarPoint) {
   }
 }
 
-TEST(GrammarOfTurns, DoesNotSeeShiftsAndWallsDoes) {
-  const Floorplan here = plan({kL});
-  const Floorplan shifted = plan({moved(kL, 0.0, {2.0, 0.0})});
-  const std::vector<Floorplan> plans = {here, shifted, here, shifted};
-  EXPECT_EQ(grammarOf(plans, Encoding::Turns).distance(0, 1), 0.0);
-  // By 2 to the right: the three walls that face left and right are others.
-  EXPECT_DOUBLE_EQ(grammarOf(plans, Encoding::Walls).distance(0, 1), 0.5);
-}
-
-TEST(GrammarOfTurns, DoesNotTellTwoEqualTowersAndWallsDoes) {
-  const Floorplan left = plan({box(0, 0, 8, 8)});
-  const Floorplan right = plan({box(20, 0, 28, 8)});
-  const std::vector<Floorplan> plans = {left, right, left, right};
-  EXPECT_EQ(grammarOf(plans, Encoding::Turns).distance(0, 1), 0.0);
-  EXPECT_DOUBLE_EQ(grammarOf(plans, Encoding::Walls).distance(0, 1), 0.5);
-}
-
-TEST(GrammarOfTurns, StartCornersThatJumpUnderNoiseDoNotHarmWalls) {
-  // The two left corners of this plan are equally far from the far point (it lies at -10 : -7):
-  // the wall between them is at right angles to that direction.
-  const double yaw = std::atan2(-7.0, -10.0) + M_PI;
-  const Corners corners = moved({{0, 0}, {20, 0}, {20, 5}, {9, 5}, {9, 12}, {0, 12}}, yaw, {0, 0});
-  std::mt19937 random(2);
-  std::vector<Floorplan> plans;
-  for (int i = 0; i < 20; ++i) plans.push_back(noisy(plan({corners}), 0.02, random));
-  const FloorplanGrammar turns = grammarOf(plans, Encoding::Turns);
-  const FloorplanGrammar walls = grammarOf(plans, Encoding::Walls);
-  double largest_of_turns = 0.0;
-  for (std::size_t i = 1; i < plans.size(); ++i) {
-    largest_of_turns = std::max(largest_of_turns, turns.distance(0, i));
-    EXPECT_EQ(walls.distance(0, i), 0.0) << i;
-  }
-  EXPECT_GE(largest_of_turns, 0.3);
-}
-
 TEST(GrammarOfTurns, DecodesToTheFloorplanAsGiven) {
   const FloorplanGrammar grammar = grammarOf({plan({kL}), plan({kL})}, Encoding::Turns);
   EXPECT_TRUE(sameCorners(grammar.decode(0).components.at(0).outer, kL, 0.0));

@@ -4,60 +4,14 @@
 
 #include <limits>
 #include <random>
-#include <set>
 #include <vector>
+
+#include "layer_energies.h"
 
 namespace {
 
-using storey::expandLayerLabels;
-using storey::LayerEnergy;
-using storey::LayerLabeling;
-using storey::minimizeLayerEnergy;
-
-// The sum as (11) is written, by another way than the class's own.
-double energyOf(const LayerEnergy& e, const std::vector<int>& z) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < z.size(); ++i) {
-    sum += e.data[i * e.num_labels + static_cast<std::size_t>(z[i])];
-  }
-  for (std::size_t i = 0; i + 1 < z.size(); ++i) {
-    sum +=
-        e.pair[static_cast<std::size_t>(z[i]) * e.num_labels + static_cast<std::size_t>(z[i + 1])];
-  }
-  for (const int t : std::set<int>(z.begin(), z.end())) {
-    sum += e.label_cost[static_cast<std::size_t>(t)];
-  }
-  return sum;
-}
-
-double leastOfAllLabelings(const LayerEnergy& e) {
-  std::vector<int> z(e.num_nodes, 0);
-  double least = std::numeric_limits<double>::infinity();
-  while (true) {
-    least = std::min(least, energyOf(e, z));
-    std::size_t i = 0;
-    while (i < z.size() && ++z[i] == static_cast<int>(e.num_labels)) z[i++] = 0;
-    if (i == z.size()) return least;
-  }
-}
-
-// Pairwise costs of any kind: symmetric or not, no metric.
-LayerEnergy randomEnergy(std::size_t nodes, std::size_t labels, std::mt19937& random,
-                         double scale = 1.0) {
-  LayerEnergy e;
-  e.num_nodes = nodes;
-  e.num_labels = labels;
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  std::uniform_int_distribution<int> few(0, 2);
-  const bool ties = few(random) == 0;
-  const auto draw = [&] { return scale * (ties ? few(random) : unit(random)); };
-  for (std::size_t k = 0; k < nodes * labels; ++k) e.data.push_back(draw());
-  for (std::size_t a = 0; a < labels; ++a) {
-    for (std::size_t b = 0; b < labels; ++b) e.pair.push_back(a == b ? 0.0 : 0.7 * draw());
-  }
-  for (std::size_t t = 0; t < labels; ++t) e.label_cost.push_back(draw());
-  return e;
-}
+using namespace storey;
+using namespace storey::test;
 
 TEST(LayerEnergy, EvaluatesTheSum) {
   std::mt19937 random(1);
@@ -150,20 +104,8 @@ TEST(LayerEnergy, TheBoundHoldsWhenTheWorkRunsOut) {
 TEST(LayerEnergy, AHundredSlicesOfFiveTypesAreSolved) {
   // Five runs of 20 nodes, each with its own label and 30 candidates that fit one node each.
   constexpr std::size_t kNodes = 100;
-  constexpr std::size_t kLabels = 35;
-  LayerEnergy e;
-  e.num_nodes = kNodes;
-  e.num_labels = kLabels;
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    for (std::size_t t = 0; t < kLabels; ++t) {
-      const bool own = t < 5 ? i / 20 == t : i == 3 * (t - 5);
-      e.data.push_back(t < 5 && own ? 0.1 : own ? 0.0 : 0.6);
-    }
-  }
-  for (std::size_t a = 0; a < kLabels; ++a) {
-    for (std::size_t b = 0; b < kLabels; ++b) e.pair.push_back(a == b ? 0.0 : 0.3);
-  }
-  e.label_cost.assign(kLabels, 0.9);
+  LayerEnergy e = runsOfLabels(kNodes, 5, 30, 0.3);
+  e.label_cost.assign(e.num_labels, 0.9);
   const LayerLabeling best = minimizeLayerEnergy(e);
   EXPECT_TRUE(best.optimal);
   for (std::size_t i = 0; i < kNodes; ++i) EXPECT_EQ(best.labels[i], static_cast<int>(i / 20));

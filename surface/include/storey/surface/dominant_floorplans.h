@@ -21,6 +21,7 @@ struct DominantFloorplanOptions {
   double large_change = 9.0;  ///< k2 = 3 k1, between all other types
   double change_threshold = 0.5;  ///< zeta
   bool exact = true;              ///< branch and bound; false: alpha-expansion as in the paper
+  std::size_t max_types = 0;      ///< no more types than this; 0: no limit
 };
 
 struct DominantFloorplans {
@@ -31,7 +32,8 @@ struct DominantFloorplans {
   int num_types = 0;                   ///< types in use
   int num_candidates = 0;              ///< different strings among the slices
   std::size_t dictionary_size = 0;
-  LayerLabeling labeling;  ///< energy, bound, whether it is optimal
+  LayerLabeling labeling;  ///< energy, bound, whether it is optimal; labels are candidates
+  std::vector<LayerTradeOff> trade_off;  ///< fit against number of types, if minimised exactly
 };
 
 /// Chooses the dominant floorplans among those of the slices and gives each slice one of them, by
@@ -39,6 +41,7 @@ struct DominantFloorplans {
 /// skipped: they take part in nothing, and a gap of skipped slices between two blocks is shared
 /// half and half.
 /// \param slices bottom to top
+/// \return no blocks if no slice has a floorplan or, after a PCL_ERROR, a tolerance is not positive
 DominantFloorplans selectDominantFloorplans(const std::vector<FloorplanLayer>& slices,
                                             const DominantFloorplanOptions& options);
 

@@ -48,8 +48,8 @@ class FloorplanGrammar {
   double getAngleTolerance() const { return angle_tolerance_; }
 
   /// Builds the dictionary from all floorplans and encodes each. Empty floorplans get no string.
-  /// With a tolerance that is not positive every string is empty (and a PCL_ERROR is printed).
-  void encode(const std::vector<Floorplan>& plans);
+  /// \return false, after a PCL_ERROR and with every string empty, if a tolerance is not positive
+  bool encode(const std::vector<Floorplan>& plans);
 
   std::size_t getDictionarySize() const { return letters_.size(); }
   const Strings& getStrings(std::size_t plan) const { return strings_[plan]; }

@@ -17,6 +17,7 @@ struct LayerEnergy {
   std::vector<double> data;        ///< num_nodes x num_labels, row-major, >= 0
   std::vector<double> pair;        ///< num_labels x num_labels, row-major, >= 0, 0 on the diagonal
   std::vector<double> label_cost;  ///< num_labels, >= 0
+  std::size_t max_labels = 0;      ///< labelings with more labels in use are none; 0: no limit
 
   double evaluate(const std::vector<int>& labels) const;
 };
@@ -31,14 +32,29 @@ struct LayerLabeling {
 
 /// Minimises the energy globally. For a given set of labels the chain is solved exactly by dynamic
 /// programming; branch and bound goes over the sets, with bounds by Lagrangian relaxation of the
-/// label costs (a label's cost is spread over the nodes that use it).
+/// label costs (a label's cost is spread over the nodes that use it). A limit on the number of
+/// labels is relaxed too: one price for every label, paid back as often as labels are allowed.
 /// \note Deviation: the paper uses alpha-expansion, which is not guaranteed here, for its pairwise
 /// term with k2 = 3 k1 is no metric.
 /// \param max_work limit of dynamic programs, each O(num_nodes num_labels^2); a count, not a time,
 /// so that the result does not depend on the machine. It is looked at between branches, of 122
-/// programs at the most
+/// programs at the most; a limit on the labels takes a few searches of one branch or more each
 /// \return no labels, after a PCL_ERROR, if a size is wrong or a cost negative or not finite
 LayerLabeling minimizeLayerEnergy(const LayerEnergy& energy, std::size_t max_work = 20000);
+
+/// A point of the trade-off between how many labels are used and how well they fit.
+struct LayerTradeOff {
+  std::size_t num_labels = 0;
+  LayerLabeling labeling;  ///< its energy, and its bound, are without label costs
+};
+
+/// The Pareto front of the energy without label costs against the number of labels in use: the
+/// least energy for each number of labels, as far as one more label lowers it, by
+/// `minimizeLayerEnergy` with `max_labels` = 1, 2, ... up to the energy's own limit. What label
+/// costs choose among are the points on its convex hull, if all labels cost the same.
+/// \param max_work for each number of labels
+/// \return ascending in number, descending in energy
+std::vector<LayerTradeOff> tradeOffLabels(const LayerEnergy& energy, std::size_t max_work = 20000);
 
 /// Alpha-expansion with label costs on the same chain, for comparison: from the best single label,
 /// each expansion move is a binary chain, solved by dynamic programming without the label costs and

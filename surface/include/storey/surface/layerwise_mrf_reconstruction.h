@@ -59,6 +59,10 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
   void setLabelCost(double eta2) { options_.label_cost = eta2; }
   double getLabelCost() const { return options_.label_cost; }
 
+  /// Greatest number of floorplan types among the slices; 0 (default): no limit.
+  void setMaxTypes(std::size_t max_types) { options_.max_types = max_types; }
+  std::size_t getMaxTypes() const { return options_.max_types; }
+
   /// How floorplans are compared; default `FloorplanGrammar::Encoding::Walls`.
   void setEncoding(FloorplanGrammar::Encoding encoding) { options_.encoding = encoding; }
   FloorplanGrammar::Encoding getEncoding() const { return options_.encoding; }
