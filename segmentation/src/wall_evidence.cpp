@@ -15,6 +15,7 @@ constexpr double kBin = 3.0;           // noise deviations
 constexpr double kMaxBins = 300.0;     // the partition is quadratic in them
 constexpr double kMinPoints = 20.0;    // of an edge that takes part in the levels
 constexpr double kTilePoints = 6.0;    // a wall misses a tile once in 400
+constexpr double kSeenPoints = 5.0;    // fewer may be outliers
 constexpr double kFullDensity = 0.5;   // of the walls' density: a tile is seen wholly
 constexpr double kLeastDensity = 0.05;         // of the densest height's
 constexpr std::size_t kDensityReach = 3;       // bins up and down
@@ -49,9 +50,9 @@ EdgeTiles makeTiles(const LineArrangement& plan, double width, std::size_t num_b
   return tiles;
 }
 
-// Density of the points on the walls at each height: the median over the tiles around it, weighted
-// by their points, so that it follows a density that falls with height. Where there are outliers
-// only it is a small share of the building's.
+// Density of the points on the walls at each height: the median over the area that was seen around
+// it, so that it follows a density that falls with height or with the distance of a side from the
+// scanner. Where there are outliers only it is a small share of the building's.
 std::vector<double> densityByHeight(const EdgeTiles& tiles, double bin) {
   std::vector<double> densities(tiles.num_bins, 0.0);
   std::vector<std::pair<double, double>> values;  // density, weight
@@ -64,10 +65,10 @@ std::vector<double> densityByHeight(const EdgeTiles& tiles, double bin) {
       for (std::size_t t = tiles.first[e]; t < tiles.first[e + 1]; ++t) {
         double d = 0.0;
         for (std::size_t k = from; k < to; ++k) d += tiles.difference[t * tiles.num_bins + k];
-        if (d == 0.0) continue;
+        if (std::abs(d) < kSeenPoints) continue;
         const double area = tiles.width[e] * bin * static_cast<double>(to - from);
-        values.emplace_back(std::abs(d) / area, std::abs(d));
-        total += std::abs(d);
+        values.emplace_back(std::abs(d) / area, area);
+        total += area;
       }
     }
     std::sort(values.begin(), values.end());

@@ -278,7 +278,6 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
     });
     if (!known && !isLeftover(found, distinct, points, scale.noise)) distinct.push_back(found.line);
   }
-  if (getenv("DBG")) for (const WallLine& w : distinct) fprintf(stderr, "wall %9.3f off %8.3f s[%7.2f %7.2f] z[%6.2f %6.2f] A %7.1f n %zu res %.3f ang %.4f\n", std::atan2(w.normal.y(), w.normal.x())*180/M_PI, w.offset, w.s_min, w.s_max, w.z_min, w.z_max, w.support_area, w.support, w.residual, w.angle_deviation*180/M_PI);
   return distinct;
 }
 
