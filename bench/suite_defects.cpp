@@ -33,11 +33,11 @@ Defect share(const std::string& name, std::vector<double> percent, double synth:
 
 std::vector<Defect> whatIsMissing() {
   using D = synth::Defects;
-  return {share("one side missing", {50, 100}, &D::missing_side),
-          share("patches missing", {10, 20, 30, 50}, &D::missing_patches),
-          share("walls missing", {5, 10, 20}, &D::missing_walls),
-          share("foot missing", {5, 10, 20}, &D::missing_foot),
-          {"density at the top, 1 /",
+  return {share("missing side", {50, 100}, &D::missing_side),
+          share("missing patches", {10, 20, 30, 50}, &D::missing_patches),
+          share("missing walls", {5, 10, 20}, &D::missing_walls),
+          share("missing foot", {5, 10, 20}, &D::missing_foot),
+          {"density falloff",
            "",
            {3, 9, 27},
            [](Experiment& e, double level) { e.sampling.defects.density_falloff = level; }},
@@ -49,26 +49,26 @@ std::vector<Defect> whatIsMissing() {
 std::vector<Defect> whatIsTooMuch() {
   using D = synth::Defects;
   return {share("outliers", {5, 10, 20, 40, 60}, &D::outliers),
-          {"trees, and twice the ground",
+          {"trees and ground",
            " %",
            {5, 10, 20},
            [](Experiment& e, double level) {
              e.sampling.defects.trees = level / 100.0;
              e.sampling.defects.ground = 2.0 * level / 100.0;
            }},
-          share("windows recessed", {10, 20, 30}, &D::windows)};
+          share("windows", {10, 20, 30}, &D::windows)};
 }
 
 std::vector<Defect> whatIsNoisy() {
   using D = synth::Defects;
   return {share("heavy tails", {5, 10, 20}, &D::heavy_tails),
-          {"noise x", "", {2, 4}, [](Experiment& e, double level) { e.sampling.noise *= level; }},
+          {"noise", " x", {2, 4}, [](Experiment& e, double level) { e.sampling.noise *= level; }},
           {"noise of normals",
            " deg",
            {25, 35},
            [](Experiment& e, double level) { e.sampling.normal_noise = level * kDegree; }},
           share("flipped normals", {5, 10, 20, 30, 40}, &D::flipped_normals),
-          {"normals left out", " %", {100}, [](Experiment& e, double) { e.with_normals = false; }},
+          {"no normals", " %", {100}, [](Experiment& e, double) { e.with_normals = false; }},
           {"tilt", " deg", {1, 2, 5, 10}, [](Experiment& e, double level) {
              e.sampling.pose.tilt = level * kDegree;
            }}};
@@ -141,7 +141,12 @@ void measureDefects(const Request& request) {
   std::printf(
       "## One defect at a time\n\n"
       "Each level on %zu buildings, random:%llu and those that follow, %zu points. A refusal has\n"
-      "IoU 0. Ratios are to the limit of the clean cloud with the same noise and points.\n\n",
+      "IoU 0. Ratios are to the limit of the clean cloud with the same noise and points. Shares "
+      "are\n"
+      "of the surface (patches), the planes (walls), the height (foot), the walls' area (windows,\n"
+      "0.2 deep) or the points; there are twice as many points of ground as of trees; a falloff of "
+      "9\n"
+      "is 1/9 of the density at the top.\n\n",
       buildings, static_cast<unsigned long long>(request.seed), request.pointsOr(kPoints));
   Table levels(
       {"defect", "models", "valid", "exact", "IoU median", "IoU min", "ratio median", "CPU s"});

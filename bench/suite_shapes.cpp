@@ -6,7 +6,6 @@
 #include "bench/markdown.h"
 #include "bench/suites.h"
 #include "bench/summary.h"
-#include "bench/tables.h"
 
 namespace storey::bench {
 namespace {
@@ -59,13 +58,14 @@ void addRow(const Experiment& experiment, const Outcome& outcome, const Outcome&
             Table& table) {
   const Measures& m = outcome.measures;
   if (!outcome.hasModel() || !as_made.hasModel()) {
-    table.add({experiment.building, experiment.label, "-", "-", "-", "-", "-", "-"});
+    table.add(
+        {experiment.building, experiment.label, "-", "-", "-", "-", "-", "-", outcome.failure});
     return;
   }
   const double move = std::max(largestMove(outcome, as_made), largestMove(as_made, outcome));
   table.add({experiment.building, experiment.label, ofCount(m.polygons, m.true_polygons),
              ofCount(m.corners, m.true_corners), fixed(m.iou, 4), fixed(errorRatio(outcome), 2),
-             m.valid ? "yes" : "no", fixed(move / as_made.measures.grid, 1)});
+             m.valid ? "yes" : "no", fixed(move / as_made.measures.grid, 1), ""});
 }
 
 }  // namespace
@@ -86,12 +86,12 @@ void measureShapes(const Request& request) {
       "A cylinder of 64 facets, and other buildings, as made, scaled, and far from the origin. "
       "Moved:\n"
       "how far a vertex is from the model of the cloud as made, in steps of the model's grid.\n\n");
-  Table table({"building", "cloud", "polygons", "corners", "IoU", "ratio", "valid", "moved"});
+  Table table({"building", "cloud", "polygons", "corners", "IoU", "ratio", "valid", "moved",
+               "what is wrong"});
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     addRow(experiments[i], outcomes[i], outcomes[i - i % kNumPlaces], table);
   }
   table.print();
-  printNotExact(experiments, outcomes);
 }
 
 }  // namespace storey::bench
