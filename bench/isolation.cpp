@@ -15,11 +15,15 @@
 #include <memory>
 #include <system_error>
 
+#include "io/failure.h"
+
 namespace storey::bench {
 namespace {
 
 constexpr rlim_t kMaxCpuSeconds = 1800;
-constexpr int kThrown = 1;  // exit status of a task that threw
+// Exit statuses of tasks without a result.
+constexpr int kThrown = 1;
+constexpr int kRefused = 2;  // by an `io::Failure`
 
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
@@ -45,6 +49,9 @@ struct Child {
   int status = 0;
   try {
     text = task();
+  } catch (const io::Failure& refusal) {
+    text = refusal.what();
+    status = kRefused;
   } catch (const std::exception& error) {
     text = error.what();
     status = kThrown;
@@ -69,6 +76,7 @@ Report reportOf(const Child& child, int status) {
   if (WIFSIGNALED(status)) {
     return {"", std::string("CRASH: ") + strsignal(WTERMSIG(status))};
   }
+  if (WEXITSTATUS(status) == kRefused) return {"", content};
   if (WEXITSTATUS(status) != 0) return {"", "EXCEPTION: " + content};
   return {content, ""};
 }

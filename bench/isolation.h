@@ -13,7 +13,8 @@ using Task = std::function<std::string()>;
 
 struct Report {
   std::string result;
-  std::string failure;  ///< what was thrown, or how the process ended; empty if all went well
+  std::string failure;  ///< a refusal (`io::Failure`), "EXCEPTION: " and what else was thrown, or
+                        ///< "CRASH: " and the signal; empty if all went well
 };
 
 /// Runs each task in a process of its own, at most `jobs` (>= 1) at a time, so that a crash, or

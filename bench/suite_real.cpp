@@ -97,9 +97,12 @@ std::string bytesOf(const Agreement& agreement) {
   return {reinterpret_cast<const char*>(&agreement), sizeof agreement};
 }
 
-void addRow(const std::string& name, const Report& report, Table& table) {
+void addRow(const std::string& cloud, const Report& report, Table& table) {
+  const std::string name = fs::path(cloud).filename().string();
   if (!report.failure.empty()) {
-    table.add({name, "-", "-", "-", "-", "-", "-", "-", "-", report.failure});
+    const bool has_path = report.failure.rfind(cloud + ": ", 0) == 0;
+    const std::string reason = report.failure.substr(has_path ? cloud.size() + 2 : 0);
+    table.add({name, "-", "-", "-", "-", "-", "-", "-", "-", reason});
     return;
   }
   Agreement a;
@@ -136,7 +139,7 @@ void measureReal(const Request& request) {
   Table table({"cloud", "points", "noise", "explained", "supported", "polygons", "blocks", "valid",
                "CPU s", "what is wrong"});
   for (std::size_t i = 0; i < clouds.size(); ++i) {
-    addRow(fs::path(clouds[i]).filename().string(), reports[i], table);
+    addRow(clouds[i], reports[i], table);
   }
   table.print();
 }

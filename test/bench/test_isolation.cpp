@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "bench/isolation.h"
+#include "io/failure.h"
 
 namespace storey::bench {
 namespace {
@@ -15,6 +16,7 @@ TEST(Isolation, KeepsTheOrderAndReportsHowTasksEnd) {
     tasks.emplace_back([i] { return std::string("\0x", 2) + char('a' + i); });
   tasks.emplace_back([]() -> std::string { throw std::runtime_error("no luck"); });
   tasks.emplace_back([]() -> std::string { std::abort(); });
+  tasks.emplace_back([]() -> std::string { throw io::Failure(io::BadInput, "", "no walls", ""); });
   tasks.emplace_back([] { return std::string(100000, 'y'); });
   for (const unsigned int jobs : {1u, 3u}) {
     std::size_t finished = 0;
@@ -28,7 +30,8 @@ TEST(Isolation, KeepsTheOrderAndReportsHowTasksEnd) {
     }
     EXPECT_EQ(reports[20].failure, "EXCEPTION: no luck");
     EXPECT_NE(reports[21].failure.find("CRASH"), std::string::npos);
-    EXPECT_EQ(reports[22].result, std::string(100000, 'y'));
+    EXPECT_EQ(reports[22].failure, "no walls");
+    EXPECT_EQ(reports[23].result, std::string(100000, 'y'));
   }
 }
 
