@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kHeader =
     "building,cloud,method,seed,points,error,error_deviation,error_limit,corner,worst_corner,"
-    "corner_limit,iou,polygons,true_polygons,corners,true_corners,valid,exact,seconds,failure\n";
+    "corner_limit,iou,polygons,true_polygons,corners,true_corners,valid,exact,seconds,problem\n";
 
 std::string quoted(const std::string& text) {
   std::string result = "\"";
@@ -29,7 +29,7 @@ std::string rowOf(const Experiment& experiment, const Outcome& outcome) {
                 m.polygons, m.true_polygons, m.corners, m.true_corners, m.valid ? 1 : 0,
                 isExact(outcome) ? 1 : 0, m.seconds);
   return experiment.building + "," + quoted(experiment.label) + "," +
-         methodName(experiment.method) + "," + numbers + quoted(outcome.failure) + "\n";
+         methodName(experiment.method) + "," + numbers + quoted(outcome.problem) + "\n";
 }
 
 }  // namespace

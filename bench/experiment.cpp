@@ -61,8 +61,10 @@ io::PolygonSoup unposed(const reconstruct::Result& result, const synth::Pose& po
   return model;
 }
 
-void compare(const io::PolygonSoup& model, const io::PolygonSoup& truth, Measures& m) {
+void compare(const io::PolygonSoup& model, const ModelCheck& check, const io::PolygonSoup& truth,
+             Outcome& outcome) {
   const synth::Evaluation e = synth::evaluateModel(model, truth, kSurfaceSamples, kColumnsPerSide);
+  Measures& m = outcome.measures;
   m.error = e.vertex_to_truth.mean;
   m.error_deviation = e.vertex_to_truth.deviation;
   m.corner = e.corner_to_vertex.mean;
@@ -70,7 +72,10 @@ void compare(const io::PolygonSoup& model, const io::PolygonSoup& truth, Measure
   m.iou = e.overlap.iou();
   m.polygons = e.model.polygons;
   m.corners = e.model.corners;
-  m.valid = e.check.ok() && e.model.open_edges == 0;
+  // Not the check of the polygons read back: where walls are nearly coplanar, that one judges what
+  // merging made of them.
+  m.valid = check.ok() && e.model.open_edges == 0;
+  if (!check.ok()) outcome.problem = check.problems.front();
 }
 
 Outcome performHere(const Experiment& experiment) {
@@ -99,17 +104,17 @@ Outcome performHere(const Experiment& experiment) {
     m.seconds = cpuSeconds() - start;
     const io::PolygonSoup model = unposed(result, sampling.pose);
     outcome.vertices = model.vertices;
-    compare(model, io::toPolygons(truth), m);
-    m.valid = m.valid && result.model.check.ok();
+    compare(model, result.model.check, io::toPolygons(truth), outcome);
+    m.has_model = true;
     m.grid = result.model.model.grid / sampling.pose.scale;
   } catch (const io::Failure& refusal) {
     m.seconds = cpuSeconds() - start;
-    outcome.failure = refusal.what();
+    outcome.problem = refusal.what();
   }
   return outcome;
 }
 
-/// The bytes of the measures, the vertices, and the reason of a failure.
+/// The bytes of the measures, the vertices, and the problem.
 std::string pack(const Outcome& outcome) {
   static_assert(std::is_trivially_copyable_v<Measures>);
   const std::size_t num_vertices = outcome.vertices.size();
@@ -117,7 +122,7 @@ std::string pack(const Outcome& outcome) {
   bytes.append(reinterpret_cast<const char*>(&num_vertices), sizeof num_vertices);
   bytes.append(reinterpret_cast<const char*>(outcome.vertices.data()),
                num_vertices * sizeof(Vector3d));
-  return bytes + outcome.failure;
+  return bytes + outcome.problem;
 }
 
 Outcome unpack(const std::string& bytes) {
@@ -132,14 +137,14 @@ Outcome unpack(const std::string& bytes) {
   take(&num_vertices, sizeof num_vertices);
   outcome.vertices.resize(num_vertices);
   for (Vector3d& vertex : outcome.vertices) take(vertex.data(), sizeof(Vector3d));
-  outcome.failure.assign(at, bytes.data() + bytes.size());
+  outcome.problem.assign(at, bytes.data() + bytes.size());
   return outcome;
 }
 
 Outcome toOutcome(const Report& report) {
   if (report.failure.empty()) return unpack(report.result);
   Outcome outcome;
-  outcome.failure = report.failure;
+  outcome.problem = report.failure;
   return outcome;
 }
 
@@ -148,12 +153,12 @@ void tell(const Experiment& experiment, const Outcome& outcome) {
   std::fprintf(stderr, "%-12s %-8s %-28s ", experiment.building.c_str(),
                experiment.method == reconstruct::Method::Paper ? "paper" : "building",
                experiment.label.c_str());
-  if (outcome.hasModel()) {
+  if (m.has_model) {
     std::fprintf(stderr, "polygons %zu/%zu corners %zu/%zu IoU %.5f error/limit %.2f%s %.1f s\n",
                  m.polygons, m.true_polygons, m.corners, m.true_corners, m.iou,
                  m.error / m.error_limit, m.valid ? "" : " NOT VALID", m.seconds);
   } else {
-    std::fprintf(stderr, "%s\n", outcome.failure.c_str());
+    std::fprintf(stderr, "%s\n", outcome.problem.c_str());
   }
 }
 

@@ -30,6 +30,8 @@ struct Measures {
   std::size_t true_corners = 0;
   double error_limit = 0.0;   ///< of a clean cloud with that noise and number of points
   double corner_limit = 0.0;  ///< the same
+  double seconds = 0.0;       ///< CPU time of the reconstruction, also of one that failed
+  bool has_model = false;
   // The following only if there is a model.
   double error = 0.0;            ///< the paper's: model vertices to true facets, mean
   double error_deviation = 0.0;  ///< standard deviation of the same
@@ -38,17 +40,14 @@ struct Measures {
   double iou = 0.0;
   std::size_t polygons = 0;
   std::size_t corners = 0;
-  bool valid = false;    ///< closed and without any defect that `checkModel` knows
-  double grid = 0.0;     ///< unit of the model's coordinates
-  double seconds = 0.0;  ///< CPU time of the reconstruction, also of one that failed
+  bool valid = false;  ///< closed and without any defect that `checkModel` knows
+  double grid = 0.0;   ///< unit of the model's coordinates
 };
 
 struct Outcome {
   Measures measures;
   std::vector<Eigen::Vector3d> vertices;  ///< of the model, in the frame of the unposed building
-  std::string failure;                    ///< why there is no model; empty if there is one
-
-  bool hasModel() const { return failure.empty(); }
+  std::string problem;  ///< why there is no model, or why it is not valid; empty if all is well
 };
 
 /// Each experiment in a process of its own, `jobs` at a time; a crash is its failure. Outcomes are

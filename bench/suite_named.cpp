@@ -64,7 +64,7 @@ std::string polygonsOf(const std::vector<Outcome>& outcomes) {
   std::vector<double> counts;
   std::size_t truth = 0;
   for (const Outcome& outcome : outcomes) {
-    if (!outcome.hasModel()) continue;
+    if (!outcome.measures.has_model) continue;
     counts.push_back(static_cast<double>(outcome.measures.polygons));
     truth = outcome.measures.true_polygons;
   }

@@ -57,15 +57,15 @@ std::vector<Experiment> placed(const Request& request, const std::string& buildi
 void addRow(const Experiment& experiment, const Outcome& outcome, const Outcome& as_made,
             Table& table) {
   const Measures& m = outcome.measures;
-  if (!outcome.hasModel() || !as_made.hasModel()) {
+  if (!m.has_model || !as_made.measures.has_model) {
     table.add(
-        {experiment.building, experiment.label, "-", "-", "-", "-", "-", "-", outcome.failure});
+        {experiment.building, experiment.label, "-", "-", "-", "-", "-", "-", outcome.problem});
     return;
   }
   const double move = std::max(largestMove(outcome, as_made), largestMove(as_made, outcome));
   table.add({experiment.building, experiment.label, ofCount(m.polygons, m.true_polygons),
              ofCount(m.corners, m.true_corners), fixed(m.iou, 4), fixed(errorRatio(outcome), 2),
-             m.valid ? "yes" : "no", fixed(move / as_made.measures.grid, 1), ""});
+             m.valid ? "yes" : "no", fixed(move / as_made.measures.grid, 1), outcome.problem});
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ double median(std::vector<double> values) {
 
 bool isExact(const Outcome& outcome) {
   const Measures& m = outcome.measures;
-  return outcome.hasModel() && m.polygons == m.true_polygons && m.corners == m.true_corners &&
+  return m.has_model && m.polygons == m.true_polygons && m.corners == m.true_corners &&
          m.worst_corner <= kCornerReach * m.noise;
 }
 
@@ -42,10 +42,10 @@ Summary summarize(const std::vector<Outcome>& outcomes, double wanted_iou) {
     const Measures& m = outcome.measures;
     ++s.count;
     s.exact += isExact(outcome) ? 1 : 0;
-    ious.push_back(outcome.hasModel() ? m.iou : 0.0);
+    ious.push_back(m.has_model ? m.iou : 0.0);
     s.overlapping += ious.back() >= wanted_iou ? 1 : 0;
     seconds.push_back(m.seconds);
-    if (!outcome.hasModel()) continue;
+    if (!m.has_model) continue;
     ++s.models;
     s.valid += m.valid ? 1 : 0;
     errors.push_back(m.error);

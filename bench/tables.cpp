@@ -29,13 +29,13 @@ void printNotExact(const std::vector<Experiment>& experiments,
     if (isExact(outcome) && m.valid) continue;
     std::vector<std::string> row = {experiments[i].building, experiments[i].label,
                                     methodName(experiments[i].method), std::to_string(m.points)};
-    if (outcome.hasModel()) {
+    if (m.has_model) {
       row.insert(row.end(),
                  {foundOf(m.polygons, m.true_polygons), foundOf(m.corners, m.true_corners),
                   fixed(m.worst_corner / m.noise, 1), fixed(m.iou, 4),
-                  fixed(errorRatio(outcome), 2), m.valid ? "" : "not valid"});
+                  fixed(errorRatio(outcome), 2), m.valid ? "" : "not valid: " + outcome.problem});
     } else {
-      row.insert(row.end(), {"-", "-", "-", "-", "-", outcome.failure});
+      row.insert(row.end(), {"-", "-", "-", "-", "-", outcome.problem});
     }
     table.add(row);
   }

@@ -34,15 +34,15 @@ Outcome good() {
   m.error = 0.02;
   m.corner = 0.03;
   m.iou = 0.999;
-  m.valid = true;
+  m.has_model = m.valid = true;
   m.seconds = 2.0;
   return outcome;
 }
 
 Outcome refused() {
   Outcome outcome = good();
+  outcome.measures.has_model = outcome.measures.valid = false;
   outcome.measures.iou = 0.0;
-  outcome.failure = "no walls";
   return outcome;
 }
 
