@@ -13,6 +13,15 @@
 namespace storey::bench {
 namespace {
 
+constexpr const char* kDefectsText = R"(## One defect at a time
+
+Each level on %zu buildings, random:%llu and those that follow, %zu points. A refusal has IoU 0. Ratios are to the limit of
+the clean cloud with the same noise and points. Shares are of the surface (patches), the planes (walls), the height (foot),
+the walls' area (windows, 0.2 deep) or the points; there are twice as many points of ground as of trees; a falloff of 9 is 1/9
+of the density at the top.
+
+)";
+
 constexpr double kDegree = M_PI / 180.0;
 constexpr std::size_t kBuildings = 5;
 constexpr std::size_t kPoints = 200000;
@@ -138,16 +147,8 @@ void measureDefects(const Request& request) {
   const std::vector<Defect> defects = defectsOf(request);
   const std::vector<Experiment> experiments = experimentsOf(request, defects, buildings);
   const std::vector<Outcome> outcomes = perform(request, experiments);
-  std::printf(
-      "## One defect at a time\n\n"
-      "Each level on %zu buildings, random:%llu and those that follow, %zu points. A refusal has\n"
-      "IoU 0. Ratios are to the limit of the clean cloud with the same noise and points. Shares "
-      "are\n"
-      "of the surface (patches), the planes (walls), the height (foot), the walls' area (windows,\n"
-      "0.2 deep) or the points; there are twice as many points of ground as of trees; a falloff of "
-      "9\n"
-      "is 1/9 of the density at the top.\n\n",
-      buildings, static_cast<unsigned long long>(request.seed), request.pointsOr(kPoints));
+  std::printf(kDefectsText, buildings, static_cast<unsigned long long>(request.seed),
+              request.pointsOr(kPoints));
   Table levels(
       {"defect", "models", "valid", "exact", "IoU median", "IoU min", "ratio median", "CPU s"});
   Table limits({"defect", "median IoU at least 0.95 up to", "below from"});

@@ -10,6 +10,14 @@
 namespace storey::bench {
 namespace {
 
+constexpr const char* kNamedText = R"(## Named buildings
+
+syn1-3 at the paper's numbers of points, %zu draws; the others once. Error: mean distance of the model's vertices to the
+nearest true facet, in units in which the noise is 0.1, and its deviation; medians over the draws. Ratio: the error over its
+statistical limit. Corners' ratio: the mean distance of the true corners to the model's vertices over its limit.
+
+)";
+
 using reconstruct::Method;
 
 constexpr std::size_t kDraws = 5;
@@ -99,14 +107,7 @@ void measureNamed(const Request& request) {
     group.outcomes.assign(next, end);
     next = end;
   }
-  std::printf(
-      "## Named buildings\n\n"
-      "syn1-3 at the paper's numbers of points, %zu draws; the others once. Error: mean distance "
-      "of\n"
-      "the model's vertices to the nearest true facet, in units in which the noise is 0.1; with "
-      "its\n"
-      "deviation, the median over the draws. Ratio: error over its statistical limit.\n\n",
-      request.countOr(kDraws));
+  std::printf(kNamedText, request.countOr(kDraws));
   Table table({"building", "method", "error", "deviation", "the paper", "its deviation", "limit",
                "ratio", "max", "corners' ratio", "polygons", "valid", "exact", "IoU min", "CPU s"});
   for (const Group& group : groups) addRow(group, table);

@@ -11,6 +11,21 @@
 namespace storey::bench {
 namespace {
 
+constexpr const char* kRandomText = R"(## Random buildings
+
+Clean clouds of random:%llu and those that follow, 200,000-400,000 points each unless told otherwise. Exact: as many polygons
+and corners as the truth, and every true corner within 5 deviations of the noise (0.5) of a vertex of the model. Ratios are to
+the statistical limit.
+
+)";
+constexpr const char* kCombinedText = R"(## All defects at once
+
+The same buildings with 3 %% outliers, 5 %% trees, 8 %% ground, 15 %% of the surface hidden in patches, 5 %% of the walls without
+points, density falling to 1/9 at the top, windows recessed by 2 deviations of the noise over 20 %% of the area, 5 %% heavy
+tails, 2 %% flipped normals, 1.5 degrees of tilt. Ratios are to the limit of the clean cloud.
+
+)";
+
 constexpr std::size_t kCleanBuildings = 100;
 constexpr std::size_t kDamagedBuildings = 50;
 constexpr double kCleanIou = 0.998;
@@ -67,13 +82,7 @@ void measure(const Request& request, const std::vector<Experiment>& experiments,
 void measureRandom(const Request& request) {
   const std::vector<Experiment> experiments =
       randomBuildings(request, request.countOr(kCleanBuildings));
-  std::printf(
-      "## Random buildings\n\n"
-      "Clean clouds of random:%llu and those that follow, 200,000-400,000 points each unless told\n"
-      "otherwise. Exact: as many polygons and corners as the truth, and every true corner within\n"
-      "5 deviations of the noise (0.5) of a vertex of the model. Ratios are to the statistical\n"
-      "limit, medians over the buildings.\n\n",
-      static_cast<unsigned long long>(request.seed));
+  std::printf(kRandomText, static_cast<unsigned long long>(request.seed));
   measure(request, experiments, kCleanIou);
 }
 
@@ -81,14 +90,7 @@ void measureCombined(const Request& request) {
   std::vector<Experiment> experiments =
       randomBuildings(request, request.countOr(kDamagedBuildings));
   for (Experiment& experiment : experiments) damage(experiment.sampling);
-  std::printf(
-      "## All defects at once\n\n"
-      "The same buildings with 3 %% outliers, 5 %% trees, 8 %% ground, 15 %% of the surface "
-      "hidden\n"
-      "in patches, 5 %% of the walls without points, density falling to 1/9 at the top, windows\n"
-      "recessed by 2 deviations of the noise over 20 %% of the area, 5 %% heavy tails, 2 %% "
-      "flipped\n"
-      "normals, 1.5 degrees of tilt. Ratios are to the limit of the clean cloud.\n\n");
+  std::printf(kCombinedText);
   measure(request, experiments, kDamagedIou);
 }
 

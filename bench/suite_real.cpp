@@ -20,6 +20,13 @@
 namespace storey::bench {
 namespace {
 
+constexpr const char* kRealText = R"(## Real clouds
+
+No truth is known. Explained: wall points within 3 deviations of the noise of the model. Supported: area of the model's walls
+with such points.
+
+)";
+
 namespace fs = std::filesystem;
 
 /// What can be said of a model without the truth.
@@ -132,10 +139,7 @@ void measureReal(const Request& request) {
       runIsolated(tasks, request.jobs, [&](std::size_t i, const Report& report) {
         std::fprintf(stderr, "%s %s\n", clouds[i].c_str(), report.failure.c_str());
       });
-  std::printf(
-      "## Real clouds\n\n"
-      "No truth is known. Explained: wall points within 3 deviations of the noise of the model.\n"
-      "Supported: area of the model's walls with such points.\n\n");
+  std::printf(kRealText);
   Table table({"cloud", "points", "noise", "explained", "supported", "polygons", "blocks", "valid",
                "CPU s", "what is wrong"});
   for (std::size_t i = 0; i < clouds.size(); ++i) {

@@ -10,6 +10,13 @@
 namespace storey::bench {
 namespace {
 
+constexpr const char* kShapesText = R"(## Shapes, scales and places
+
+A cylinder of 64 facets, and other buildings, as made, scaled, and far from the origin. Moved: how far a vertex is from the
+model of the cloud as made, in steps of the model's grid.
+
+)";
+
 constexpr std::size_t kPoints = 200000;
 constexpr std::size_t kRandomBuildings = 2;
 
@@ -81,11 +88,7 @@ void measureShapes(const Request& request) {
     experiments.insert(experiments.end(), places.begin(), places.end());
   }
   const std::vector<Outcome> outcomes = perform(request, experiments);
-  std::printf(
-      "## Shapes, scales and places\n\n"
-      "A cylinder of 64 facets, and other buildings, as made, scaled, and far from the origin. "
-      "Moved:\n"
-      "how far a vertex is from the model of the cloud as made, in steps of the model's grid.\n\n");
+  std::printf(kShapesText);
   Table table({"building", "cloud", "polygons", "corners", "IoU", "ratio", "valid", "moved",
                "what is wrong"});
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
