@@ -156,7 +156,7 @@ void measureDefects(const Request& request) {
   for (const Defect& defect : defects) addRows(defect, buildings, next, levels, limits);
   levels.print();
   if (!limits.empty()) limits.print();
-  printNotExact(experiments, outcomes);
+  printNotValid(experiments, outcomes);
 }
 
 }  // namespace storey::bench

@@ -6,6 +6,11 @@
 #include "bench/markdown.h"
 
 namespace storey::bench {
+
+std::string methodName(reconstruct::Method method) {
+  return method == reconstruct::Method::Paper ? "paper" : "building";
+}
+
 namespace {
 
 std::string foundOf(std::size_t found, std::size_t truth) {
@@ -13,20 +18,14 @@ std::string foundOf(std::size_t found, std::size_t truth) {
                         : std::to_string(found) + " of " + std::to_string(truth);
 }
 
-}  // namespace
-
-std::string methodName(reconstruct::Method method) {
-  return method == reconstruct::Method::Paper ? "paper" : "building";
-}
-
-void printNotExact(const std::vector<Experiment>& experiments,
-                   const std::vector<Outcome>& outcomes) {
-  Table table({"not exact", "cloud", "method", "points", "polygons", "corners",
-               "worst corner / noise", "IoU", "ratio", "what is wrong"});
+void print(const std::string& title, const std::vector<Experiment>& experiments,
+           const std::vector<Outcome>& outcomes, bool (*isWanted)(const Outcome&)) {
+  Table table({title, "cloud", "method", "points", "polygons", "corners", "worst corner / noise",
+               "IoU", "ratio", "what is wrong"});
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const Outcome& outcome = outcomes[i];
     const Measures& m = outcome.measures;
-    if (isExact(outcome) && m.valid) continue;
+    if (!isWanted(outcome)) continue;
     std::vector<std::string> row = {experiments[i].building, experiments[i].label,
                                     methodName(experiments[i].method), std::to_string(m.points)};
     if (m.has_model) {
@@ -40,6 +39,20 @@ void printNotExact(const std::vector<Experiment>& experiments,
     table.add(row);
   }
   if (!table.empty()) table.print();
+}
+
+}  // namespace
+
+void printNotExact(const std::vector<Experiment>& experiments,
+                   const std::vector<Outcome>& outcomes) {
+  print("not exact", experiments, outcomes,
+        [](const Outcome& outcome) { return !isExact(outcome) || !outcome.measures.valid; });
+}
+
+void printNotValid(const std::vector<Experiment>& experiments,
+                   const std::vector<Outcome>& outcomes) {
+  print("not valid", experiments, outcomes,
+        [](const Outcome& outcome) { return !outcome.measures.valid; });
 }
 
 }  // namespace storey::bench

@@ -15,4 +15,8 @@ std::string methodName(reconstruct::Method method);
 void printNotExact(const std::vector<Experiment>& experiments,
                    const std::vector<Outcome>& outcomes);
 
+/// The same for those without a valid model.
+void printNotValid(const std::vector<Experiment>& experiments,
+                   const std::vector<Outcome>& outcomes);
+
 }  // namespace storey::bench
