@@ -47,8 +47,8 @@ class Pipeline {
   Pipeline(const Options& options, const std::function<void(const std::string&)>& progress)
       : options_(options), progress_(progress) {}
 
-  Result run() {
-    stage("read", [&] { return read(); });
+  Result run(const std::function<io::LoadedCloud()>& load) {
+    stage("read", [&] { return take(load()); });
     stage("normals", [&] { return estimateMissingNormals(); });
     stage("vertical", [&] { return adjustAttitude(); });
     stage("orientation", [&] { return orientNormals(); });
@@ -76,8 +76,8 @@ class Pipeline {
     throw io::Failure(io::BadInput, options_.input, reason, hint);
   }
 
-  std::string read() {
-    result_.loaded = io::readCloud(options_.input);
+  std::string take(io::LoadedCloud loaded) {
+    result_.loaded = std::move(loaded);
     result_.cloud = std::move(result_.loaded.cloud);
     result_.local_to_input.translation() = result_.loaded.offset;
     return format("%zu points (%s)", result_.cloud->size(), result_.loaded.format.c_str());
@@ -280,7 +280,12 @@ class Pipeline {
 
 Result reconstruct(const Options& options,
                    const std::function<void(const std::string&)>& progress) {
-  return Pipeline(options, progress).run();
+  return Pipeline(options, progress).run([&] { return io::readCloud(options.input); });
+}
+
+Result reconstruct(io::LoadedCloud cloud, const Options& options,
+                   const std::function<void(const std::string&)>& progress) {
+  return Pipeline(options, progress).run([&] { return std::move(cloud); });
 }
 
 }  // namespace storey::reconstruct

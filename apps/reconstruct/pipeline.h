@@ -27,7 +27,7 @@ struct StageTime {
   double seconds = 0.0;
 };
 
-/// What every stage found, from the file to the model.
+/// What every stage found, from the cloud to the model.
 struct Result {
   io::LoadedCloud loaded;  ///< the cloud itself is moved on to `cloud`
   Cloud::Ptr cloud;        ///< upright (+z is up), with outward normals
@@ -55,9 +55,13 @@ struct Result {
   std::vector<StageTime> times;
 };
 
-/// Takes a cloud through all stages. \param progress is called at the end of each stage with a
-/// line that says what it found
-/// \throws io::Failure (BadInput) with the reason where a stage finds nothing to go on with
+/// Takes the cloud `options.input` through all stages. \param progress is called at the end of each
+/// stage with a line that says what it found \throws io::Failure (BadInput) with the reason where a
+/// stage finds nothing to go on with
 Result reconstruct(const Options& options, const std::function<void(const std::string&)>& progress);
+
+/// The same for a cloud in memory; `options.input` is only its name in messages.
+Result reconstruct(io::LoadedCloud cloud, const Options& options,
+                   const std::function<void(const std::string&)>& progress);
 
 }  // namespace storey::reconstruct

@@ -110,6 +110,21 @@ TEST(Pipeline, GivesTheSameModelForAnyNumberOfThreads) {
   }
 }
 
+TEST(Pipeline, TakesACloudInMemoryAsItTakesAFile) {
+  const test::TemporaryDirectory directory;
+  Options options;
+  options.input = directory.file("cloud.ply");
+  synth::writeCloudPly(options.input,
+                       synth::sampleBuilding(synth::makeBuilding("box").layers, sampling()), false,
+                       true);
+  const auto silent = [](const std::string&) {};
+  const PolyhedralModel from_file = reconstruct(options, silent).model.model;
+  const PolyhedralModel from_memory =
+      reconstruct(io::readCloud(options.input), {}, silent).model.model;
+  EXPECT_FALSE(from_memory.empty());
+  EXPECT_EQ(from_file.vertices, from_memory.vertices);
+}
+
 TEST(Pipeline, DoesNotDependOnTheOrderOfThePoints) {
   const std::vector<FloorplanLayer> layers = synth::makeBuilding("l_shape").layers;
   synth::SyntheticCloud cloud = synth::sampleBuilding(layers, sampling());

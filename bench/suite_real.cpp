@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <type_traits>
+
+#include "bench/isolation.h"
+#include "bench/markdown.h"
+#include "bench/suites.h"
+#include "io/failure.h"
+#include "io/model_io.h"
+#include "reconstruct/pipeline.h"
+#include "synth/cloud_evaluation.h"
+
+namespace storey::bench {
+namespace {
+
+constexpr const char* kRealText = R"(## Real clouds
+
+No truth is known. Explained: wall points within 3 deviations of the noise of the model. Supported: area of the model's walls
+with such points.
+
+)";
+
+namespace fs = std::filesystem;
+
+/// What can be said of a model without the truth.
+struct Agreement {
+  std::size_t points = 0;
+  double noise = 0.0;
+  double explained = 0.0;  ///< share of the wall points within 3 deviations of the noise
+  double supported = 0.0;  ///< share of the model's wall area with such points
+  std::size_t polygons = 0;
+  std::size_t blocks = 0;
+  bool valid = false;
+  double seconds = 0.0;
+};
+
+/// Lines "NAME.ply options of storey_reconstruct"; # starts a comment.
+std::map<std::string, std::string> readCloudOptions(const std::string& path) {
+  std::map<std::string, std::string> options;
+  if (path.empty()) return options;
+  std::ifstream file(path);
+  if (!file) throw io::Failure(io::MissingInput, path, "cannot be read", "");
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream stream(line.substr(0, line.find('#')));
+    std::string name;
+    if (stream >> name) std::getline(stream, options[name]);
+  }
+  return options;
+}
+
+std::vector<std::string> cloudsIn(const std::string& folder) {
+  std::vector<std::string> clouds;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".ply") clouds.push_back(entry.path().string());
+  }
+  if (error) throw io::Failure(io::MissingInput, folder, error.message(), "");
+  std::sort(clouds.begin(), clouds.end());
+  return clouds;
+}
+
+reconstruct::Options optionsOf(const std::string& cloud, const std::string& text) {
+  std::vector<std::string> words = {"storey_reconstruct", cloud, "-o", "unused", "--threads", "1"};
+  std::istringstream stream(text);
+  for (std::string word; stream >> word;) words.push_back(word);
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  reconstruct::Options options;
+  parseOptions(static_cast<int>(arguments.size()), arguments.data(), options);
+  return options;
+}
+
+Agreement agreementOf(const reconstruct::Options& options) {
+  const std::clock_t start = std::clock();
+  const reconstruct::Result result = reconstruct::reconstruct(options, [](const std::string&) {});
+  Agreement a;
+  a.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  std::vector<synth::OrientedPosition> points;
+  for (const reconstruct::Point& p : *result.cloud) {
+    points.push_back({p.getVector3fMap().cast<double>(), p.getNormalVector3fMap().cast<double>()});
+  }
+  const synth::CloudEvaluation e =
+      synth::evaluateAgainstCloud(io::toPolygons(result.model.model), points,
+                                  Eigen::Vector3d::UnitZ(), result.noise, result.scale.density);
+  a.points = points.size();
+  a.noise = result.noise;
+  a.explained = e.explainedShare();
+  a.supported = e.supportedShare();
+  a.polygons = result.model.model.faces.size();
+  a.blocks = result.model.model.storeys.size();
+  a.valid = result.model.check.ok();
+  return a;
+}
+
+std::string bytesOf(const Agreement& agreement) {
+  static_assert(std::is_trivially_copyable_v<Agreement>);
+  return {reinterpret_cast<const char*>(&agreement), sizeof agreement};
+}
+
+void addRow(const std::string& cloud, const Report& report, Table& table) {
+  const std::string name = fs::path(cloud).filename().string();
+  if (!report.failure.empty()) {
+    const bool has_path = report.failure.rfind(cloud + ": ", 0) == 0;
+    const std::string reason = report.failure.substr(has_path ? cloud.size() + 2 : 0);
+    table.add({name, "-", "-", "-", "-", "-", "-", "-", "-", reason});
+    return;
+  }
+  Agreement a;
+  std::memcpy(&a, report.result.data(), sizeof a);
+  char noise[32];
+  std::snprintf(noise, sizeof noise, "%.3g", a.noise);
+  table.add({name, std::to_string(a.points), noise, fixed(100.0 * a.explained, 1) + " %",
+             fixed(100.0 * a.supported, 1) + " %", std::to_string(a.polygons),
+             std::to_string(a.blocks), a.valid ? "yes" : "no", fixed(a.seconds, 1), ""});
+}
+
+}  // namespace
+
+void measureReal(const Request& request) {
+  const std::vector<std::string> clouds = cloudsIn(request.folder);
+  std::map<std::string, std::string> given = readCloudOptions(request.cloud_options);
+  std::vector<reconstruct::Options> options;
+  std::vector<Task> tasks;
+  for (const std::string& cloud : clouds) {
+    options.push_back(optionsOf(cloud, given[fs::path(cloud).filename().string()]));
+    if (request.method) options.back().method = *request.method;
+  }
+  for (const reconstruct::Options& cloud : options) {
+    tasks.emplace_back([&cloud] { return bytesOf(agreementOf(cloud)); });
+  }
+  const std::vector<Report> reports =
+      runIsolated(tasks, request.jobs, [&](std::size_t i, const Report& report) {
+        std::fprintf(stderr, "%s %s\n", clouds[i].c_str(), report.failure.c_str());
+      });
+  std::printf(kRealText);
+  Table table({"cloud", "points", "noise", "explained", "supported", "polygons", "blocks", "valid",
+               "CPU s", "what is wrong"});
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    addRow(clouds[i], reports[i], table);
+  }
+  table.print();
+}
+
+}  // namespace storey::bench
