@@ -20,6 +20,10 @@ constexpr std::size_t kMinPositions = 5;         // a plane has 3 parameters; 2 
 constexpr double kNoiseShare = 0.25;             // of the neighbourhoods lie on one plane, at least
 constexpr double kNoiseQuantile = -0.6745;       // of the normal distribution, at kNoiseShare
 constexpr double kAcceptedDeviations = 2.5;      // of chi-square, above the start
+constexpr double kMadToDeviation = 1.4826;
+constexpr double kCore = 2.5;              // deviations
+constexpr double kCoreVariance = 0.91123;  // of a normal distribution cut there: 1 - 2 c phi / P
+constexpr int kCoreRounds = 3;
 constexpr double kFlatShare = 0.4;
 constexpr double kFlatRadius = 8.0;  // noise deviations: less than this is no plane
 constexpr std::size_t kThinning = 4;
@@ -54,6 +58,23 @@ std::vector<std::size_t> drawStratified(std::size_t n, std::size_t count, std::m
   return drawn;
 }
 
+// Variance of a normal distribution from absolute deviations, some of which are of others: tails,
+// clutter, the panes of windows. What lies beyond kCore deviations does not count.
+double varianceOfCore(std::vector<double>& deviations) {
+  double deviation = kMadToDeviation * quantile(deviations, 0.5);
+  for (int round = 0; round < kCoreRounds && deviation > 0.0; ++round) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const double d : deviations) {
+      if (d > kCore * deviation) continue;
+      sum += d * d;
+      count += 1.0;
+    }
+    deviation = std::sqrt(sum / count / kCoreVariance);
+  }
+  return deviation * deviation;
+}
+
 Neighborhood describe(const Cloud& cloud, const std::vector<std::uint32_t>& multiplicity,
                       const pcl::Indices& neighbors, double radius) {
   const Eigen::Vector3d origin =
@@ -69,12 +90,20 @@ Neighborhood describe(const Cloud& cloud, const std::vector<std::uint32_t>& mult
     result.points += multiplicity[static_cast<std::size_t>(j)];
   }
   const auto k = static_cast<double>(neighbors.size());
-  const Eigen::Matrix3d covariance = products / k - (sum / k) * (sum / k).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+  const Eigen::Vector3d mean = sum / k;
+  const Eigen::Matrix3d covariance = products / k - mean * mean.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   const Eigen::Vector3d l = solver.eigenvalues().cwiseMax(0.0);
   result.radius = radius;
   result.flatness = l.sum() > 0.0 ? l(0) / l.sum() : 0.0;
-  const double variance = l(0) * k / (k - 3.0);
+  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  std::vector<double> residuals;
+  for (const pcl::index_t j : neighbors) {
+    const Eigen::Vector3d d =
+        cloud[static_cast<std::size_t>(j)].getVector3fMap().cast<double>() - origin - mean;
+    residuals.push_back(std::abs(normal.dot(d)));
+  }
+  const double variance = varianceOfCore(residuals) * k / (k - 3.0);
   result.variance = variance * (1.0 + 2.0 * variance / (radius * radius));
   return result;
 }
