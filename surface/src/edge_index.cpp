@@ -77,6 +77,12 @@ std::size_t EdgeIndex::cellOf(const Eigen::Vector2d& point) const {
                                   static_cast<std::ptrdiff_t>(x));
 }
 
+const std::vector<int>& EdgeIndex::candidates(const Eigen::Vector2d& point) const {
+  static const std::vector<int> none;
+  const std::size_t cell = cellOf(point);
+  return cell < cells_.size() ? cells_[cell] : none;
+}
+
 int EdgeIndex::nearest(const Eigen::Vector2d& point, const Eigen::Vector2d& normal,
                        double margin) const {
   const std::size_t cell = cellOf(point);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/surface/extrusion.h>
+#include <storey/surface/face_support.h>
 #include <storey/surface/layerwise_model.h>
 
 #include <algorithm>
@@ -54,6 +55,9 @@ void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, Layer
   result.levels = fitHeights(layers, points, fit);
   result.model = extrudeFloorplans(layers, options.grid);
   result.check = checkModel(result.model);
+  if (result.model.empty()) return;
+  measureSupport(points, fit.noise, result.model);
+  propagateDeviations(result.walls, result.levels, result.model);
 }
 
 // The walls of an outline, whatever corner and component come first.

@@ -43,6 +43,9 @@ class EdgeIndex {
   double distance(const Eigen::Vector2d& point, const Eigen::Vector2d& normal,
                   double margin) const;
 
+  /// All stretches that may be within the gate of the point, and others; ascending.
+  const std::vector<int>& candidates(const Eigen::Vector2d& point) const;
+
   const WallStretch& operator[](std::size_t i) const { return stretches_[i]; }
   std::size_t size() const { return stretches_.size(); }
 
