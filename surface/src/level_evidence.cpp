@@ -67,40 +67,36 @@ bool hasCloseNeighbor(const WallStretch& stretch, const Stretches& others, doubl
 // The walls around one level.
 class LevelWalls {
  public:
-  enum class Kind { None, Ends, Starts };
-
   LevelWalls(const Stretches& below, const Stretches& above, double noise)
       : LevelWalls(split(below, above), split(above, below), below, above, noise) {}
 
-  /// What a point of a wall tells of the level. Of a wall that may go on it tells nothing.
-  Kind kindOf(const Eigen::Vector2d& point, const Eigen::Vector2d& normal) const {
-    const int nearest = all_.nearest(point, normal, 0.0);
-    if (nearest < 0 || kinds_[static_cast<std::size_t>(nearest)] == Kind::None) return Kind::None;
-    if (going_.nearest(point, normal, 0.0) >= 0) return Kind::None;
-    return kinds_[static_cast<std::size_t>(nearest)];
+  // Notes what a point of a wall tells of the level. Of a wall that may go on it tells nothing.
+  void note(const Eigen::Vector3d& point, const Eigen::Vector2d& normal,
+            LevelEvidence& level) const {
+    const int nearest = all_.nearest(point.head<2>(), normal, 0.0);
+    if (nearest < 0 || lists_[static_cast<std::size_t>(nearest)] == List::None) return;
+    if (going_.nearest(point.head<2>(), normal, 0.0) >= 0) return;
+    const bool mixed = mixed_[static_cast<std::size_t>(nearest)] != 0;
+    const bool ends = lists_[static_cast<std::size_t>(nearest)] == List::Ends;
+    (ends ? level.ends : level.starts)[mixed].push_back(point.z());
   }
 
  private:
+  enum class List { None, Ends, Starts };
+
   LevelWalls(const SplitStretches& lower, const SplitStretches& upper, const Stretches& below,
              const Stretches& above, double noise)
       : all_(joined(lower, upper), kGate * noise), going_(lengthened(lower, noise), kGate * noise) {
-    std::vector<char> clear;
-    const auto classify = [&](const SplitStretches& own, const Stretches& others, Kind kind) {
+    const auto classify = [&](const SplitStretches& own, const Stretches& others, List list) {
       for (const WallStretch& stretch : own.uncovered) {
-        kinds_.push_back(stretch.length > kMinStretch * noise ? kind : Kind::None);
-        clear.push_back(!hasCloseNeighbor(stretch, others, kMixingGap * noise));
+        lists_.push_back(stretch.length > kMinStretch * noise ? list : List::None);
+        mixed_.push_back(hasCloseNeighbor(stretch, others, kMixingGap * noise));
       }
     };
-    classify(lower, above, Kind::Ends);
-    classify(upper, below, Kind::Starts);
-    bool any_clear = false;
-    for (std::size_t i = 0; i < kinds_.size(); ++i) {
-      any_clear = any_clear || (clear[i] != 0 && kinds_[i] != Kind::None);
-    }
-    for (std::size_t i = 0; i < kinds_.size(); ++i) {  // else the mixed ones are all there is
-      if (any_clear && clear[i] == 0) kinds_[i] = Kind::None;
-    }
-    kinds_.resize(all_.size(), Kind::None);
+    classify(lower, above, List::Ends);
+    classify(upper, below, List::Starts);
+    lists_.resize(all_.size(), List::None);
+    mixed_.resize(all_.size(), 0);
   }
 
   static Stretches joined(const SplitStretches& lower, const SplitStretches& upper) {
@@ -122,7 +118,8 @@ class LevelWalls {
 
   EdgeIndex all_;  // what ends, what starts, what goes on, in this order
   EdgeIndex going_;
-  std::vector<Kind> kinds_;
+  std::vector<List> lists_;
+  std::vector<char> mixed_;
 };
 
 // Level k lies below layer k; level n is the top. Its window reaches into its neighbours by the
@@ -177,13 +174,12 @@ std::vector<LevelEvidence> collectLevelEvidence(const std::vector<FloorplanLayer
         if (isCap(layers, k, p.head<2>(), normal.z() > 0.0)) level->caps.push_back(p.z());
         continue;
       }
-      const LevelWalls::Kind kind = walls[k].kindOf(p.head<2>(), normal.head<2>());
-      if (kind == LevelWalls::Kind::Ends) level->ends.push_back(p.z());
-      if (kind == LevelWalls::Kind::Starts) level->starts.push_back(p.z());
+      walls[k].note(p, normal.head<2>(), *level);
     }
   }
   for (LevelEvidence& level : levels) {
-    for (std::vector<double>* heights : {&level.ends, &level.starts, &level.caps}) {
+    for (std::vector<double>* heights :
+         {&level.ends[0], &level.ends[1], &level.starts[0], &level.starts[1], &level.caps}) {
       std::sort(heights->begin(), heights->end());
     }
   }

@@ -172,25 +172,33 @@ std::vector<double> mirrored(const std::vector<double>& heights) {
 HeightFit fitLevel(const LevelEvidence& level, double noise, double max_shift) {
   HeightFit fit;
   fit.z = level.guess;
-  fit.wall_support = level.ends.size() + level.starts.size();
   fit.cap_support = level.caps.size();
   const double from = std::max(level.low + noise, level.guess - max_shift);
   const double to = std::min(level.high - noise, level.guess + max_shift);
   if (!(from < to)) return fit;
-  const StepLikelihood ends(level.ends, level.low, level.high, noise);
-  const StepLikelihood starts(mirrored(level.starts), -level.high, -level.low, noise);
+  std::vector<StepLikelihood> ends;
+  std::vector<StepLikelihood> starts;
+  for (std::size_t i = 0; i < 2; ++i) {
+    ends.emplace_back(level.ends[i], level.low, level.high, noise);
+    starts.emplace_back(mirrored(level.starts[i]), -level.high, -level.low, noise);
+    fit.wall_support += level.ends[i].size() + level.starts[i].size();
+  }
   const CapLikelihood caps(level.caps, level.high - level.low, noise);
   const auto ofCaps = [&](double z) { return caps.at(z); };
   // Points of a slanted roof lie at no level.
   const bool flat = !level.caps.empty() && maximize(ofCaps, from, to, noise).value > kClear;
   const auto ofAll = [&](double z) {
-    return ends.at(z) + starts.at(-z) + (flat ? caps.at(z) : 0.0);
+    return ends[0].at(z) + ends[1].at(z) + starts[0].at(-z) + starts[1].at(-z) +
+           (flat ? caps.at(z) : 0.0);
   };
   const Maximum best = maximize(ofAll, from, to, noise);
   if (best.value < kClear) return fit;
   fit.z = best.z;
-  fit.deviation = 1.0 / std::sqrt(ends.information(best.z) + starts.information(-best.z) +
-                                  (flat ? caps.information(best.z) : 0.0));
+  double information = flat ? caps.information(fit.z) : 0.0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    information += ends[i].information(fit.z) + starts[i].information(-fit.z);
+  }
+  fit.deviation = 1.0 / std::sqrt(information);
   return fit;
 }
 
