@@ -18,7 +18,8 @@ constexpr double kTukeyScatter = 0.94468;
 // E[w] E[w^2 u^2] / E[(w u)']^2 with E[w^2 u^2] = 1 - 12 / k^2 + 90 / k^4 - 420 / k^6 + 945 / k^8
 // and E[(w u)'] = 1 - 6 / k^2 + 15 / k^4.
 constexpr double kTukeyDeviation = 0.98237;
-constexpr double kMaxAngleDeviation = 0.01;  // rad; a wall that tells less keeps its direction
+constexpr double kMaxAngleDeviation = 0.05;  // rad; a wall that tells less keeps its direction,
+                                             // unless its points contradict
 constexpr double kSameDirection = 3.5;       // standard deviations
 constexpr double kMinTurn = 0.03;            // rad; lines that cross at less have no stable corner
 constexpr std::size_t kMinSupport = 8;       // points
@@ -102,7 +103,8 @@ std::map<int, WallFit> solve(Walls& walls, double noise) {
       const double deviation = kTukeyDeviation * std::max(wall.residual(slope), 0.1 * noise);
       fit.angle_deviation = deviation / std::sqrt(wall.spread());
       fit.offset_deviation = deviation / std::sqrt(wall.w);
-      if (fit.angle_deviation > kMaxAngleDeviation) slope = 0.0;
+      const bool contradicts = std::abs(slope) > kSameDirection * fit.angle_deviation;
+      if (fit.angle_deviation > kMaxAngleDeviation && !contradicts) slope = 0.0;
       fit.residual = wall.residual(slope);
       const Eigen::Vector2d centre =
           wall.reference + (wall.s / wall.w) * wall.tangent() + (wall.d / wall.w) * wall.normal;

@@ -209,6 +209,29 @@ TEST(FitWalls, ParallelWallsShareOneDirection) {
   EXPECT_LT(shared_squares, 0.5 * separate_squares);
 }
 
+TEST(FitWalls, AShortWallFoundAslantTurnsToItsPoints) {
+  // The sides of a bay, 15 deviations long, 12 degrees off: 15 of the deviations of their
+  // directions, sqrt(12) 0.1 / (1.5 sqrt 150) = 0.019.
+  const auto truth = named({layer(
+      0, 10, {ring({{0, 0}, {6, 0}, {6, -1.5}, {9, -1.5}, {9, 0}, {20, 0}, {20, 10}, {0, 10}})})});
+  WallSampler sampler(kSigma, 17);
+  FitPoints points;
+  sampler.addLayers(truth, 10.0, points);
+  auto layers = truth;
+  auto& corners = layers[0].plan.components[0].outer.vertices;
+  const double off = 0.75 * std::tan(12.0 * M_PI / 180.0);
+  corners[1].x() -= off;
+  corners[2].x() += off;
+  corners[3].x() -= off;
+  corners[4].x() += off;
+  fitWalls(layers, points, options());
+  for (std::size_t i = 1; i < 5; ++i) {
+    // At its end a wall is good to 2 sigma / sqrt(150); four times that.
+    EXPECT_LT((corners[i] - truth[0].plan.components[0].outer.vertices[i]).norm(),
+              4.0 * 2.0 * kSigma / std::sqrt(150.0));
+  }
+}
+
 TEST(FitWalls, WallsOfDifferentDirectionsDoNotShare) {
   // 3 degrees between the lower and the upper wall: 0.05 rad against a deviation of
   // sqrt(12) 0.1 / (20 sqrt 1000) = 0.0005.
