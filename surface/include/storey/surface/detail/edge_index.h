@@ -40,8 +40,7 @@ class EdgeIndex {
   int nearest(const Eigen::Vector2d& point, const Eigen::Vector2d& normal, double margin) const;
 
   /// Distance across to that stretch; infinite if there is none.
-  double distance(const Eigen::Vector2d& point, const Eigen::Vector2d& normal,
-                  double margin) const;
+  double distance(const Eigen::Vector2d& point, const Eigen::Vector2d& normal, double margin) const;
 
   /// All stretches that may be within the gate of the point, and others; ascending.
   const std::vector<int>& candidates(const Eigen::Vector2d& point) const;
