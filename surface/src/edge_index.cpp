@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace storey::detail {
 namespace {
@@ -104,14 +103,6 @@ int EdgeIndex::nearest(const Eigen::Vector2d& point, const Eigen::Vector2d& norm
     }
   }
   return best;
-}
-
-double EdgeIndex::distance(const Eigen::Vector2d& point, const Eigen::Vector2d& normal,
-                           double margin) const {
-  const int i = nearest(point, normal, margin);
-  if (i < 0) return std::numeric_limits<double>::infinity();
-  const WallStretch& s = stretches_[static_cast<std::size_t>(i)];
-  return std::abs((point - s.start).dot(s.normal()));
 }
 
 }  // namespace storey::detail
