@@ -29,8 +29,7 @@ int run(int argc, char** argv) {
   const PolyhedralModel& model = result.model.model;
   io::writeModelPly(directory.file("model.ply"), model, result.local_to_input);
   io::writeModelObj(directory.file("model.obj"), model, result.local_to_input);
-  io::writeFloorplansGeoJson(directory.file("floorplans.geojson"), model.storeys,
-                             result.local_to_input);
+  io::writeFloorplansGeoJson(directory.file("floorplans.geojson"), model, result.local_to_input);
   if (options.intermediate) writeIntermediate(directory, result);
   writeReport(directory.file("report.json"), options, result);  // last: all the others are there
   if (!result.model.check.ok()) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "io/model_io.h"
@@ -26,38 +28,81 @@ Json ringCoordinates(const FloorplanRing& ring, const Eigen::Isometry3d& transfo
   return coordinates;
 }
 
-/// `member` of the edges of a component, as one array for each ring.
-template <typename T>
-Json edgeValues(const FloorplanComponent& component, T FloorplanEdge::*member) {
-  const auto ringValues = [member](const FloorplanRing& ring) {
-    Json values = Json::array();
-    for (const FloorplanEdge& edge : ring.edges) values.push_back(edge.*member);
-    return values;
-  };
-  Json rings = Json::array({ringValues(component.outer)});
-  for (const FloorplanRing& hole : component.holes) rings.push_back(ringValues(hole));
-  return rings;
+/// The wall face of the model that lies on an edge of a floorplan, at the middle of both; null if
+/// there is none.
+const PolyhedralFace* faceAt(const PolyhedralModel& model, int wall,
+                             const Eigen::Vector3d& middle) {
+  const PolyhedralFace* found = nullptr;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const PolyhedralFace& face : model.faces) {
+    if (face.label != FaceLabel::Wall || face.wall != wall || wall < 0) continue;
+    Eigen::AlignedBox3d box;
+    for (const int v : face.outer) box.extend(model.vertices[static_cast<std::size_t>(v)]);
+    const double size = box.diagonal().norm();
+    box.min().array() -= 2.0 * model.grid;  // vertices move by a grid unit
+    box.max().array() += 2.0 * model.grid;
+    if (!box.contains(middle) || size >= smallest) continue;
+    smallest = size;
+    found = &face;
+  }
+  return found;
 }
 
-Json feature(const FloorplanLayer& layer, const Eigen::Isometry3d& transform) {
-  Json polygons = Json::array();
+/// What is known of the edges of a component, each as one array for each ring.
+struct EdgeArrays {
   Json walls = Json::array();
   Json hypothetical = Json::array();
+  Json coverage = Json::array();
+  Json deviation = Json::array();
+
+  void addRing(const PolyhedralModel& model, const FloorplanLayer& layer,
+               const FloorplanRing& ring) {
+    Json of_ring[4] = {Json::array(), Json::array(), Json::array(), Json::array()};
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const FloorplanEdge& edge = ring.edges[i];
+      Eigen::Vector3d middle(0.0, 0.0, 0.5 * (layer.z_min + layer.z_max));
+      middle.head<2>() = 0.5 * (ring.vertices[i] + ring.vertices[(i + 1) % ring.size()]);
+      const PolyhedralFace* face = faceAt(model, edge.wall, middle);
+      of_ring[0].push_back(edge.wall);
+      of_ring[1].push_back(edge.hypothetical || (face != nullptr && face->hypothetical));
+      of_ring[2].push_back(face != nullptr ? Json(face->coverage) : Json(nullptr));
+      const bool known = face != nullptr && std::isfinite(face->deviation);
+      of_ring[3].push_back(known ? Json(face->deviation) : Json(nullptr));
+    }
+    walls.push_back(std::move(of_ring[0]));
+    hypothetical.push_back(std::move(of_ring[1]));
+    coverage.push_back(std::move(of_ring[2]));
+    deviation.push_back(std::move(of_ring[3]));
+  }
+};
+
+Json feature(const PolyhedralModel& model, const FloorplanLayer& layer,
+             const Eigen::Isometry3d& transform) {
+  Json polygons = Json::array();
+  Json properties = {{"z_min", layer.z_min + transform.translation().z()},
+                     {"z_max", layer.z_max + transform.translation().z()},
+                     {"area", area(layer.plan)},
+                     {"perimeter", perimeter(layer.plan)}};
+  for (const char* name : {"walls", "hypothetical", "coverage", "deviation"}) {
+    properties[name] = Json::array();
+  }
   for (const FloorplanComponent& component : layer.plan.components) {
     Json rings = Json::array({ringCoordinates(component.outer, transform)});
+    EdgeArrays edges;
+    edges.addRing(model, layer, component.outer);
     for (const FloorplanRing& hole : component.holes) {
       rings.push_back(ringCoordinates(hole, transform));
+      edges.addRing(model, layer, hole);
     }
     polygons.push_back(std::move(rings));
-    walls.push_back(edgeValues(component, &FloorplanEdge::wall));
-    hypothetical.push_back(edgeValues(component, &FloorplanEdge::hypothetical));
+    properties["walls"].push_back(std::move(edges.walls));
+    properties["hypothetical"].push_back(std::move(edges.hypothetical));
+    properties["coverage"].push_back(std::move(edges.coverage));
+    properties["deviation"].push_back(std::move(edges.deviation));
   }
-  const double rise = transform.translation().z();
   Json result;
   result["type"] = "Feature";
-  result["properties"] = {{"z_min", layer.z_min + rise}, {"z_max", layer.z_max + rise},
-                          {"area", area(layer.plan)},    {"perimeter", perimeter(layer.plan)},
-                          {"walls", std::move(walls)},   {"hypothetical", std::move(hypothetical)}};
+  result["properties"] = std::move(properties);
   result["geometry"] = {{"type", "MultiPolygon"}, {"coordinates", std::move(polygons)}};
   return result;
 }
@@ -73,7 +118,7 @@ Json matrixRows(const Eigen::Isometry3d& transform) {
 
 }  // namespace
 
-void writeFloorplansGeoJson(const std::string& path, const std::vector<FloorplanLayer>& layers,
+void writeFloorplansGeoJson(const std::string& path, const PolyhedralModel& model,
                             const Eigen::Isometry3d& local_to_input) {
   const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
   const bool upright = keepsVertical(local_to_input);
@@ -81,8 +126,8 @@ void writeFloorplansGeoJson(const std::string& path, const std::vector<Floorplan
   collection["type"] = "FeatureCollection";
   collection["frame_to_input"] = matrixRows(upright ? identity : local_to_input);
   collection["features"] = Json::array();
-  for (const FloorplanLayer& layer : layers) {
-    collection["features"].push_back(feature(layer, upright ? local_to_input : identity));
+  for (const FloorplanLayer& layer : model.storeys) {
+    collection["features"].push_back(feature(model, layer, upright ? local_to_input : identity));
   }
   OutputFile file(path);
   file.write(collection.dump() + "\n");

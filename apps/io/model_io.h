@@ -20,8 +20,9 @@ enum class PlyEncoding { Ascii, Binary };
 PolygonSoup toPolygons(const PolyhedralModel& model);
 
 /// Writes polygons as PLY: `double x y z` and, for each face, the list `vertex_indices` and the
-/// properties label, wall, shell, hypothetical as in `PolygonSoup::Polygon`. Ascii numbers are the
-/// shortest that read back exactly.
+/// properties label, wall, shell, hypothetical as in `PolygonSoup::Polygon`; of models that were
+/// fitted to points also support, coverage, residual and deviation of the faces, and the deviation
+/// of the vertices. Ascii numbers are the shortest that read back exactly; unknown is `inf`.
 /// \param local_to_input takes the vertices to the coordinates of the input cloud
 /// \throws Failure (CannotCreate, IoError)
 void writePolygonsPly(const std::string& path, const PolygonSoup& soup,
@@ -40,15 +41,15 @@ void writeModelPly(const std::string& path, const PolyhedralModel& model,
 void writeModelObj(const std::string& path, const PolyhedralModel& model,
                    const Eigen::Isometry3d& local_to_input);
 
-/// Writes floorplans as GeoJSON: a Feature for each layer, its geometry a MultiPolygon with outer
-/// rings counter-clockwise and holes clockwise; properties z_min, z_max, area, perimeter, and
-/// `walls` and `hypothetical`: the ids and flags of the edges, nested polygon / ring / edge, edge i
-/// from corner i to corner i + 1.
-/// If `local_to_input` keeps the vertical, coordinates are the input's own. If not (the cloud was
-/// turned upright), they are the upright frame's. The member `frame_to_input` of the collection,
-/// a 4 x 4 matrix by rows, takes the written coordinates to the input's in either case.
-/// \throws Failure (CannotCreate, IoError)
-void writeFloorplansGeoJson(const std::string& path, const std::vector<FloorplanLayer>& layers,
+/// Writes the floorplans of a model as GeoJSON: a Feature for each storey, its geometry a
+/// MultiPolygon with outer rings counter-clockwise and holes clockwise; properties z_min, z_max,
+/// area, perimeter, and `walls`, `hypothetical`, `coverage`, `deviation`: the wall's id and what
+/// `PolyhedralFace` says of the model's face there, nested polygon / ring / edge, edge i from
+/// corner i to corner i + 1 (null: no face or not known). If `local_to_input` keeps the vertical,
+/// coordinates are the input's own. If not (the cloud was turned upright), they are the upright
+/// frame's. The member `frame_to_input` of the collection, a 4 x 4 matrix by rows, takes the
+/// written coordinates to the input's in either case. \throws Failure (CannotCreate, IoError)
+void writeFloorplansGeoJson(const std::string& path, const PolyhedralModel& model,
                             const Eigen::Isometry3d& local_to_input);
 
 struct PolygonReaderOptions {

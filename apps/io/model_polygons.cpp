@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/surface/triangulation.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "io/failure.h"
 #include "io/model_io.h"
 
@@ -9,12 +12,20 @@ namespace storey::io {
 PolygonSoup toPolygons(const PolyhedralModel& model) {
   PolygonSoup soup;
   soup.vertices = model.vertices;
+  for (std::size_t v = 0; v < model.covariances.size(); ++v) {
+    soup.deviations.push_back(model.vertexDeviation(v));
+  }
   for (const PolyhedralFace& face : model.faces) {
     PolygonSoup::Polygon polygon;
     polygon.label = static_cast<std::uint8_t>(face.label);
     polygon.wall = face.wall;
     polygon.shell = face.shell;
     polygon.hypothetical = face.hypothetical;
+    polygon.support = static_cast<int>(
+        std::min(face.support, static_cast<std::size_t>(std::numeric_limits<int>::max())));
+    polygon.coverage = face.coverage;
+    polygon.residual = face.residual;
+    polygon.deviation = face.deviation;
     if (face.inner.empty()) {
       polygon.corners = face.outer;
       soup.polygons.push_back(polygon);

@@ -85,17 +85,20 @@ void OutputFile::write(const void* data, std::size_t size) {
   }
 }
 
-void OutputFile::writeNumber(double value) {
+namespace {
+
+template <typename T>
+void writeShortest(OutputFile& file, T value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  write(text, static_cast<std::size_t>(end - text));
+  file.write(text, static_cast<std::size_t>(end - text));
 }
 
-void OutputFile::writeNumber(long long value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  write(text, static_cast<std::size_t>(end - text));
-}
+}  // namespace
+
+void OutputFile::writeNumber(double value) { writeShortest(*this, value); }
+void OutputFile::writeNumber(float value) { writeShortest(*this, value); }
+void OutputFile::writeNumber(long long value) { writeShortest(*this, value); }
 
 void OutputFile::commit() {
   flush();

@@ -26,6 +26,7 @@ class OutputFile {
 
   /// Appends the shortest decimal number that reads back as exactly this value.
   void writeNumber(double value);
+  void writeNumber(float value);
   void writeNumber(long long value);
 
   /// Writes what is left, makes it safe on the disk and gives the file its name.

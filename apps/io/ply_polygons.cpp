@@ -22,15 +22,24 @@ std::size_t requireScalar(const InputFile& file, const PlyElement& element, cons
   return index;
 }
 
+/// A property of the row that is >= 0 or infinite; `missing` if there is none such.
+double measureOr(const PlyRows& rows, std::size_t property, double missing) {
+  if (property == PlyProperty::kNone) return missing;
+  const double value = rows.scalar(property);
+  return value >= 0.0 ? value : missing;
+}
+
 void readVertices(InputFile& file, const PlyElement& element, PlyFormat format,
                   PolygonBuilder& builder) {
   const std::size_t x = requireScalar(file, element, "x");
   const std::size_t y = requireScalar(file, element, "y");
   const std::size_t z = requireScalar(file, element, "z");
+  const std::size_t deviation = element.find("deviation", false);
   PlyRows rows(file, element, format);
   for (std::uint64_t i = 0; i < element.count; ++i) {
     rows.next();
     builder.addVertex(rows.scalar(x), rows.scalar(y), rows.scalar(z));
+    if (deviation != PlyProperty::kNone) builder.addDeviation(measureOr(rows, deviation, 0.0));
   }
 }
 
@@ -58,6 +67,10 @@ void readFaces(InputFile& file, const PlyElement& element, PlyFormat format,
   const std::size_t wall = element.find("wall", false);
   const std::size_t shell = element.find("shell", false);
   const std::size_t hypothetical = element.find("hypothetical", false);
+  const std::size_t support = element.find("support", false);
+  const std::size_t coverage = element.find("coverage", false);
+  const std::size_t residual = element.find("residual", false);
+  const std::size_t deviation = element.find("deviation", false);
   constexpr int kMaxInt = std::numeric_limits<int>::max();
 
   PlyRows rows(file, element, format);
@@ -71,6 +84,10 @@ void readFaces(InputFile& file, const PlyElement& element, PlyFormat format,
     polygon.wall = integerOr(rows, wall, -1, kMaxInt, -1);
     polygon.shell = integerOr(rows, shell, 0, kMaxInt, 0);
     polygon.hypothetical = integerOr(rows, hypothetical, 0, kMaxInt, 0) != 0;
+    polygon.support = integerOr(rows, support, 0, kMaxInt, 0);
+    polygon.coverage = measureOr(rows, coverage, 0.0);
+    polygon.residual = measureOr(rows, residual, 0.0);
+    polygon.deviation = measureOr(rows, deviation, 0.0);
     builder.addPolygon(corners, std::move(polygon));
   }
 }

@@ -18,6 +18,9 @@ class PolygonBuilder {
 
   void addVertex(double x, double y, double z);
 
+  /// Of the vertex added last; of all vertices or none.
+  void addDeviation(double deviation) { soup_.deviations.push_back(deviation); }
+
   /// \param corners indices from 0, not yet checked; polygons may come before their vertices
   void addPolygon(const std::vector<std::int64_t>& corners, PolygonSoup::Polygon polygon);
 

@@ -15,11 +15,18 @@ struct PolygonSoup {
     std::uint8_t label = 0;     ///< `FaceLabel`: 0 wall, 1 roof, 2 ground, 3 ceiling
     int wall = -1;              ///< `PolyhedralFace::wall`
     int shell = 0;              ///< index of the closed part it belongs to
-    bool hypothetical = false;  ///< a wall that was not seen in the points
+    bool hypothetical = false;  ///< guessed, not seen in the points: `PolyhedralFace`
+    int support = 0;            ///< points on the face that it is a piece of, and so on as there
+    double coverage = 0.0;
+    double residual = 0.0;
+    double deviation = 0.0;
   };
 
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Polygon> polygons;
+  /// Expected displacement of each vertex, infinite where unknown; empty if the model was not
+  /// fitted to points, and then nothing is known of the support of its polygons either.
+  std::vector<double> deviations;
 };
 
 }  // namespace storey::io

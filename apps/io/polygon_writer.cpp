@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cstring>
 #include <numeric>
 #include <tuple>
+#include <type_traits>
 
 #include "io/label_names.h"
 #include "io/model_io.h"
@@ -26,49 +26,74 @@ void writeTriple(OutputFile& file, const Eigen::Vector3d& v) {
 }
 
 std::string plyHeader(const PolygonSoup& soup, const char* format, const char* count_type) {
+  const bool fitted = !soup.deviations.empty();
   return std::string("ply\nformat ") + format +
          " 1.0\n"
          "comment made by storey, in the coordinates of the input cloud\n"
          "comment label: 0 wall, 1 roof, 2 ground, 3 ceiling\n"
          "element vertex " +
          std::to_string(soup.vertices.size()) +
-         "\nproperty double x\nproperty double y\nproperty double z\n"
-         "element face " +
+         "\nproperty double x\nproperty double y\nproperty double z\n" +
+         (fitted ? "property float deviation\n" : "") + "element face " +
          std::to_string(soup.polygons.size()) + "\nproperty list " + count_type +
          " int vertex_indices\n"
          "property uchar label\nproperty int wall\nproperty int shell\n"
-         "property uchar hypothetical\nend_header\n";
+         "property uchar hypothetical\n" +
+         (fitted ? "property int support\nproperty float coverage\nproperty float residual\n"
+                   "property float deviation\n"
+                 : "") +
+         "end_header\n";
 }
 
-void writeAsciiFace(OutputFile& file, const PolygonSoup::Polygon& polygon) {
-  const auto put = [&file](long long value) {
-    file.writeNumber(value);
-    file.write(" ");
-  };
-  put(static_cast<long long>(polygon.corners.size()));
-  for (const int corner : polygon.corners) put(corner);
-  put(polygon.label);
-  put(polygon.wall);
-  put(polygon.shell);
-  file.write(polygon.hypothetical ? "1\n" : "0\n");
-}
+// The same numbers as text or as bytes.
+class PlyValues {
+ public:
+  PlyValues(OutputFile& file, bool ascii) : file_(file), ascii_(ascii) {}
 
-template <typename T>
-void writeRaw(OutputFile& file, T value) {  // the host is little-endian
-  file.write(&value, sizeof value);
-}
-
-void writeBinaryFace(OutputFile& file, const PolygonSoup::Polygon& polygon, bool wide) {
-  if (wide) {
-    writeRaw(file, static_cast<std::uint32_t>(polygon.corners.size()));
-  } else {
-    writeRaw(file, static_cast<std::uint8_t>(polygon.corners.size()));
+  template <typename T>
+  void put(T value) {
+    if (!ascii_) {
+      file_.write(&value, sizeof value);  // the host is little-endian
+      return;
+    }
+    if (!first_) file_.write(" ");
+    first_ = false;
+    if constexpr (std::is_floating_point_v<T>) {
+      file_.writeNumber(value);
+    } else {
+      file_.writeNumber(static_cast<long long>(value));
+    }
   }
-  file.write(polygon.corners.data(), polygon.corners.size() * sizeof(int));
-  writeRaw(file, polygon.label);
-  writeRaw(file, static_cast<std::int32_t>(polygon.wall));
-  writeRaw(file, static_cast<std::int32_t>(polygon.shell));
-  writeRaw(file, static_cast<std::uint8_t>(polygon.hypothetical));
+
+  void endRow() {
+    if (ascii_) file_.write("\n");
+    first_ = true;
+  }
+
+ private:
+  OutputFile& file_;
+  bool ascii_;
+  bool first_ = true;
+};
+
+void putFace(PlyValues& values, const PolygonSoup::Polygon& polygon, bool wide, bool fitted) {
+  if (wide) {
+    values.put(static_cast<std::uint32_t>(polygon.corners.size()));
+  } else {
+    values.put(static_cast<std::uint8_t>(polygon.corners.size()));
+  }
+  for (const int corner : polygon.corners) values.put(corner);
+  values.put(polygon.label);
+  values.put(static_cast<std::int32_t>(polygon.wall));
+  values.put(static_cast<std::int32_t>(polygon.shell));
+  values.put(static_cast<std::uint8_t>(polygon.hypothetical));
+  if (fitted) {
+    values.put(static_cast<std::int32_t>(polygon.support));
+    values.put(static_cast<float>(polygon.coverage));
+    values.put(static_cast<float>(polygon.residual));
+    values.put(static_cast<float>(polygon.deviation));
+  }
+  values.endRow();
 }
 
 void writeObjFaces(OutputFile& file, const PolygonSoup& soup) {
@@ -107,20 +132,15 @@ void writePolygonsPly(const std::string& path, const PolygonSoup& soup,
   const bool ascii = encoding == PlyEncoding::Ascii;
   const bool wide = maxCorners(soup) > 255;
   file.write(plyHeader(soup, ascii ? "ascii" : "binary_little_endian", wide ? "uint" : "uchar"));
-  for (const Eigen::Vector3d& vertex : soup.vertices) {
-    const Eigen::Vector3d v = local_to_input * vertex;
-    if (ascii) {
-      writeTriple(file, v);
-    } else {
-      file.write(v.data(), 3 * sizeof(double));
-    }
+  PlyValues values(file, ascii);
+  for (std::size_t i = 0; i < soup.vertices.size(); ++i) {
+    const Eigen::Vector3d v = local_to_input * soup.vertices[i];
+    for (int axis = 0; axis < 3; ++axis) values.put(v[axis]);
+    if (!soup.deviations.empty()) values.put(static_cast<float>(soup.deviations[i]));
+    values.endRow();
   }
   for (const auto& polygon : soup.polygons) {
-    if (ascii) {
-      writeAsciiFace(file, polygon);
-    } else {
-      writeBinaryFace(file, polygon, wide);
-    }
+    putFace(values, polygon, wide, !soup.deviations.empty());
   }
   file.commit();
 }

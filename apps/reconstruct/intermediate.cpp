@@ -4,6 +4,7 @@
 #include <pcl/common/io.h>
 #include <storey/surface/triangulation.h>
 
+#include <algorithm>
 #include <array>
 
 #include "io/pcd_writer.h"
@@ -97,6 +98,18 @@ class VtkFile {
     }
   }
 
+  // A colour for each point, shares of red, green and blue.
+  void colours(const std::string& name, const std::vector<Eigen::Vector3d>& colours) {
+    file_.write("POINT_DATA " + std::to_string(colours.size()) + "\nCOLOR_SCALARS " + name +
+                " 3\n");
+    for (const Eigen::Vector3d& c : colours) {
+      for (int k = 0; k < 3; ++k) {
+        file_.writeNumber(c[k]);
+        file_.write(k < 2 ? " " : "\n");
+      }
+    }
+  }
+
   void commit() { file_.commit(); }
 
  private:
@@ -141,6 +154,31 @@ void writeModelTriangles(const std::string& path, const PolyhedralModel& model) 
   file.commit();
 }
 
+// Each face from red (no points on it) over yellow to green (points all over it).
+void writeSupport(const std::string& path, const PolyhedralModel& model) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> colours;
+  std::vector<std::array<int, 3>> triangles;
+  for (const PolyhedralFace& face : model.faces) {
+    const Eigen::Vector3d colour(std::min(1.0, 2.0 - 2.0 * face.coverage),
+                                 std::min(1.0, 2.0 * face.coverage), 0.2);
+    for (const std::array<int, 3>& triangle : triangulateFace(model, face)) {
+      std::array<int, 3> corners{};  // its own: pcl_viewer colours points
+      for (std::size_t k = 0; k < 3; ++k) {
+        corners[k] = static_cast<int>(points.size());
+        points.push_back(model.vertices[static_cast<std::size_t>(triangle[k])]);
+        colours.push_back(colour);
+      }
+      triangles.push_back(corners);
+    }
+  }
+  VtkFile file(path);
+  file.points(points);
+  file.cells("POLYGONS", triangles);
+  file.colours("coverage", colours);
+  file.commit();
+}
+
 }  // namespace
 
 void writeIntermediate(const io::OutputDirectory& directory, const Result& result) {
@@ -155,6 +193,7 @@ void writeIntermediate(const io::OutputDirectory& directory, const Result& resul
     writeFloorplanLines(directory.file("09_floorplans.vtk"), result.slices);
   }
   writeModelTriangles(directory.file("11_model.vtk"), result.model.model);
+  writeSupport(directory.file("11_support.vtk"), result.model.model);
 }
 
 }  // namespace storey::reconstruct

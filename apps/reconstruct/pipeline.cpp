@@ -262,6 +262,7 @@ class Pipeline {
     pcl::PolygonMesh mesh;
     reconstruction.reconstruct(mesh);
     result_.model = reconstruction.getResult();
+    result_.local_to_input = result_.local_to_input * result_.model.upright.inverse();
     if (result_.model.model.empty()) {
       refuse("the floorplans enclose no solid", "look at the slices with --intermediate");
     }

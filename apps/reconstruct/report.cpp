@@ -3,6 +3,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -15,7 +16,29 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kDegrees = 180.0 / M_PI;
 
+// JSON has no infinity: what is not known is null.
+Json known(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+double faceArea(const PolyhedralModel& model, const PolyhedralFace& face) {
+  Eigen::Vector3d twice = Eigen::Vector3d::Zero();
+  const Eigen::Vector3d& origin = model.vertices[static_cast<std::size_t>(face.outer[0])];
+  const auto add = [&](const std::vector<int>& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const auto a = static_cast<std::size_t>(ring[i]);
+      const auto b = static_cast<std::size_t>(ring[(i + 1) % ring.size()]);
+      twice += (model.vertices[a] - origin).cross(model.vertices[b] - origin);
+    }
+  };
+  add(face.outer);
+  for (const std::vector<int>& ring : face.inner) add(ring);  // they run the other way
+  return 0.5 * twice.norm();
+}
+
 Json vector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+double turn(const Eigen::Isometry3d& rotation) {
+  return Eigen::AngleAxisd(rotation.linear()).angle();
+}
 
 Json describeInput(const Options& options, const Result& r) {
   return {{"file", options.input},
@@ -126,10 +149,52 @@ Json describeWalls(const Result& r) {
                      {"offset", wall.offset},
                      {"points", wall.support},
                      {"residual", wall.residual},
+                     {"offset_deviation", known(wall.offset_deviation)},
                      {"angle_deviation_deg",
                       wall.support > 0 ? Json(wall.angle_deviation * kDegrees) : Json(nullptr)}});
   }
   return walls;
+}
+
+Json describeLevels(const Result& r) {
+  Json levels = Json::array();
+  for (const HeightFit& level : r.model.levels) {
+    levels.push_back({{"z", level.z},
+                      {"wall_points", level.wall_support},
+                      {"cap_points", level.cap_support},
+                      {"deviation", known(level.deviation)}});
+  }
+  return levels;
+}
+
+// How much of the model's walls and of its level faces the points show.
+Json describeSupport(const PolyhedralModel& model) {
+  double area[2] = {0.0, 0.0};
+  double seen[2] = {0.0, 0.0};
+  std::size_t guessed[2] = {0, 0};
+  for (const PolyhedralFace& face : model.faces) {
+    const bool level = face.label != FaceLabel::Wall;
+    const double size = faceArea(model, face);
+    area[level] += size;
+    seen[level] += face.coverage * size;
+    guessed[level] += face.hypothetical;
+  }
+  std::vector<double> deviations;
+  for (std::size_t v = 0; v < model.covariances.size(); ++v) {
+    deviations.push_back(model.vertexDeviation(v));
+  }
+  std::sort(deviations.begin(), deviations.end());
+  const auto share = [&](int level) {
+    return area[level] > 0.0 ? Json(seen[level] / area[level]) : Json(nullptr);
+  };
+  return {{"wall_area", area[0]},
+          {"wall_share_seen", share(0)},
+          {"level_area", area[1]},
+          {"level_share_seen", share(1)},
+          {"guessed_walls", guessed[0]},
+          {"guessed_level_faces", guessed[1]},
+          {"median_vertex_deviation",
+           deviations.empty() ? Json(nullptr) : known(deviations[deviations.size() / 2])}};
 }
 
 Json describeModel(const Result& r) {
@@ -139,7 +204,7 @@ Json describeModel(const Result& r) {
   std::size_t hypothetical = 0;
   for (const PolyhedralFace& face : model.faces) {
     ++count[static_cast<int>(face.label)];
-    if (face.hypothetical) ++hypothetical;
+    if (face.hypothetical && face.label == FaceLabel::Wall) ++hypothetical;
   }
   return {{"polygons", model.faces.size()},
           {"walls", count[0]},
@@ -174,7 +239,8 @@ void writeReport(const std::string& path, const Options& options, const Result& 
                         {"taken_as_z", r.level},
                         {"wall_share", r.vertical.wall_share},
                         {"second_score", r.vertical.second_score},
-                        {"deviation_deg", r.vertical.deviation * kDegrees}};
+                        {"deviation_deg", r.vertical.deviation * kDegrees},
+                        {"walls_turned_by_deg", turn(r.model.upright) * kDegrees}};
   report["space"] = {{"side", r.inside ? "inside" : "outside"}, {"reason", r.side_reason}};
   report["scale"] = {{"noise", r.noise},
                      {"measured_noise", r.scale.noise},
@@ -187,6 +253,8 @@ void writeReport(const std::string& path, const Options& options, const Result& 
   report["building"] = describeBuilding(r);
   report["layers"] = describeLayers(r);
   report["walls"] = describeWalls(r);
+  report["levels"] = describeLevels(r);
+  report["support"] = describeSupport(r.model.model);
   report["model"] = describeModel(r);
   Json& seconds = report["seconds"];
   double total = 0.0;

@@ -14,11 +14,23 @@ namespace storey::view::detail {
 namespace {
 
 constexpr Colour kHypothetical{190, 70, 190};
+constexpr Colour kPartly{208, 135, 172};  // half-way from there to a wall
+constexpr double kMostly = 2.0 / 3;       // of a wall's area
 constexpr Colour kCloud{40, 55, 85};
 constexpr std::size_t kOverlayPoints = 60000;  // few enough to see the model through them
 
+// Level faces are no guess where walls end at them, seen or not.
+bool isUnseen(const PolyhedralFace& face) {
+  return face.label == FaceLabel::Wall && face.hypothetical;
+}
+
+bool isPartlySeen(const PolyhedralFace& face) {
+  return face.label == FaceLabel::Wall && !face.hypothetical && face.coverage < kMostly;
+}
+
 Colour baseColour(const PolyhedralFace& face) {
-  if (face.hypothetical) return kHypothetical;
+  if (isPartlySeen(face)) return kPartly;
+  if (isUnseen(face)) return kHypothetical;
   switch (face.label) {
     case FaceLabel::Roof:
       return {196, 84, 66};
@@ -120,18 +132,20 @@ void addModel(Drawing& drawing, const Reconstruction& r, double opacity) {
   drawing.facets.back().opacity = opacity;
   drawing.lines.push_back(edgesOf(model));
   constexpr const char* kNames[] = {"wall", "roof", "ground", "ceiling"};
+  const auto add = [&](const Colour& colour, const char* name, const auto& matches) {
+    const auto count = std::count_if(model.faces.begin(), model.faces.end(), matches);
+    drawing.legend.push_back({colour, std::string(name) + ": " + std::to_string(count)});
+  };
   for (int label = 0; label < 4; ++label) {
     PolyhedralFace example;
     example.label = static_cast<FaceLabel>(label);
-    const auto count = std::count_if(
-        model.faces.begin(), model.faces.end(),
-        [&](const PolyhedralFace& f) { return f.label == example.label && !f.hypothetical; });
-    drawing.legend.push_back(
-        {baseColour(example), std::string(kNames[label]) + ": " + std::to_string(count)});
+    example.coverage = 1.0;
+    add(baseColour(example), kNames[label], [&](const PolyhedralFace& f) {
+      return f.label == example.label && !isUnseen(f) && !isPartlySeen(f);
+    });
   }
-  const auto count = std::count_if(model.faces.begin(), model.faces.end(),
-                                   [](const PolyhedralFace& f) { return f.hypothetical; });
-  drawing.legend.push_back({kHypothetical, "wall not seen: " + std::to_string(count)});
+  add(kPartly, "wall partly seen", isPartlySeen);
+  add(kHypothetical, "wall not seen", isUnseen);
   drawing.legend_title = "polygons (higher roofs paler)";
   const auto shells = static_cast<std::size_t>(model.num_shells);
   drawing.subtitle = counted(model.faces.size(), "polygon") + ", " + counted(shells, "shell") +

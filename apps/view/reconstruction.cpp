@@ -52,17 +52,19 @@ Report toReport(const Json& json) {
   return report;
 }
 
-// Takes the local frame to the input's: floorplans.geojson has the rotation (none if z was kept
-// as the vertical), the report the offset.
+// Takes the local frame to the input's: floorplans.geojson has it where the cloud was turned
+// upright; else the report has the offset.
 Eigen::Isometry3d localToInput(const std::string& floorplans, const Eigen::Vector3d& offset) {
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
   readJson(floorplans, [&](const Json& json) {
     const Json& rows = json.at("frame_to_input");
     for (int row = 0; row < 3; ++row) {
-      transform.linear().row(row) = toVector(rows.at(static_cast<std::size_t>(row)));
+      const Json& numbers = rows.at(static_cast<std::size_t>(row));
+      transform.linear().row(row) = toVector(numbers);
+      transform.translation()[row] = numbers.at(3).get<double>();
     }
   });
-  transform.translation() = offset;
+  if (transform.linear().isIdentity(0.0)) transform.translation() = offset;
   return transform;
 }
 
@@ -77,6 +79,7 @@ PolyhedralModel toModel(const io::PolygonSoup& soup, double grid) {
     face.wall = polygon.wall;
     face.shell = polygon.shell;
     face.hypothetical = polygon.hypothetical;
+    face.coverage = soup.deviations.empty() ? 1.0 : polygon.coverage;  // else not measured
     model.faces.push_back(std::move(face));
     model.num_shells = std::max(model.num_shells, polygon.shell + 1);
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace storey::detail {
 namespace {
@@ -77,6 +76,12 @@ std::size_t EdgeIndex::cellOf(const Eigen::Vector2d& point) const {
                                   static_cast<std::ptrdiff_t>(x));
 }
 
+const std::vector<int>& EdgeIndex::candidates(const Eigen::Vector2d& point) const {
+  static const std::vector<int> none;
+  const std::size_t cell = cellOf(point);
+  return cell < cells_.size() ? cells_[cell] : none;
+}
+
 int EdgeIndex::nearest(const Eigen::Vector2d& point, const Eigen::Vector2d& normal,
                        double margin) const {
   const std::size_t cell = cellOf(point);
@@ -98,14 +103,6 @@ int EdgeIndex::nearest(const Eigen::Vector2d& point, const Eigen::Vector2d& norm
     }
   }
   return best;
-}
-
-double EdgeIndex::distance(const Eigen::Vector2d& point, const Eigen::Vector2d& normal,
-                           double margin) const {
-  const int i = nearest(point, normal, margin);
-  if (i < 0) return std::numeric_limits<double>::infinity();
-  const WallStretch& s = stretches_[static_cast<std::size_t>(i)];
-  return std::abs((point - s.start).dot(s.normal()));
 }
 
 }  // namespace storey::detail

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/surface/extrusion.h>
+#include <storey/surface/face_support.h>
 #include <storey/surface/layerwise_model.h>
 
 #include <algorithm>
@@ -10,10 +11,35 @@ namespace {
 
 // A boundary lies in the slice that straddles it or in one of its neighbours.
 constexpr double kHeightSearchInSlices = 1.5;
+constexpr double kMaxNoiseRatio = 2.0;  // of the walls' residual to the noise they were found with
+
+// The noise that the walls show: the residual of the wall in the middle, counted by points.
+double noiseOfWalls(const std::map<int, WallFit>& walls, double guess) {
+  std::vector<std::pair<double, std::size_t>> residuals;
+  std::size_t points = 0;
+  for (const auto& [id, wall] : walls) {
+    if (wall.support == 0) continue;
+    residuals.emplace_back(wall.residual, wall.support);
+    points += wall.support;
+  }
+  std::sort(residuals.begin(), residuals.end());
+  std::size_t below = 0;
+  for (const auto& [residual, support] : residuals) {
+    below += support;
+    if (2 * below >= points) {
+      return std::clamp(residual, guess / kMaxNoiseRatio, guess * kMaxNoiseRatio);
+    }
+  }
+  return guess;
+}
+
+void setUpright(const Eigen::Isometry3d& upright, FitPoints& points) {
+  for (Eigen::Vector3f& p : points.positions) p = (upright * p.cast<double>()).cast<float>();
+  for (Eigen::Vector3f& n : points.normals) n = (upright.linear() * n.cast<double>()).cast<float>();
+}
 
 // Walls and heights of the blocks, the solid, its checks.
-void fitAndExtrude(const FitPoints& points, const LayerwiseModelOptions& options,
-                   LayerwiseModel& result) {
+void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, LayerwiseModel& result) {
   std::vector<FloorplanLayer> layers = result.dominant.blocks;
   if (layers.empty()) return;
   FitOptions fit;
@@ -21,11 +47,17 @@ void fitAndExtrude(const FitPoints& points, const LayerwiseModelOptions& options
   fit.max_shift = kHeightSearchInSlices * options.slice_thickness;
   fitWalls(layers, points, fit);
   fitHeights(layers, points, fit);
+  result.upright = fitUpright(layers, points, options.noise);
+  setUpright(result.upright, points);
   result.walls = fitWalls(layers, points, fit);  // now each point in the layer that it is of
+  fit.noise = noiseOfWalls(result.walls, options.noise);
   fit.max_shift = 0.5 * options.slice_thickness;
-  fitHeights(layers, points, fit);
+  result.levels = fitHeights(layers, points, fit);
   result.model = extrudeFloorplans(layers, options.grid);
   result.check = checkModel(result.model);
+  if (result.model.empty()) return;
+  measureSupport(points, fit.noise, result.model);
+  propagateDeviations(result.walls, result.levels, result.model);
 }
 
 // The walls of an outline, whatever corner and component come first.

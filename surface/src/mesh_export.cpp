@@ -6,10 +6,10 @@
 
 namespace storey {
 
-pcl::PolygonMesh toPolygonMesh(const PolyhedralModel& model) {
+pcl::PolygonMesh toPolygonMesh(const PolyhedralModel& model, const Eigen::Isometry3d& transform) {
   pcl::PointCloud<pcl::PointXYZ> cloud;
   for (const Eigen::Vector3d& v : model.vertices) {
-    const Eigen::Vector3f p = v.cast<float>();
+    const Eigen::Vector3f p = (transform * v).cast<float>();
     cloud.push_back({p.x(), p.y(), p.z()});
   }
   pcl::PolygonMesh mesh;

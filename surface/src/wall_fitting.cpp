@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/console/print.h>
-#include <storey/surface/detail/edge_index.h>
+#include <storey/surface/detail/wall_assignment.h>
 #include <storey/surface/floorplan_fitting.h>
 
 #include <algorithm>
@@ -9,14 +9,17 @@
 namespace storey {
 namespace {
 
-constexpr int kRounds = 3;          // assignment and fit settle in two
-constexpr double kGate = 4.0;       // noise deviations: points further off are of another wall
-constexpr double kEndMargin = 3.0;  // noise deviations: at corners points mix
-constexpr double kTukey = 6.0;      // noise deviations
+constexpr int kRounds = 3;      // assignment and fit settle in two
+constexpr double kTukey = 6.0;  // noise deviations
 // Tukey's weights w of k = 6 shrink the scatter of a normal distribution:
 // sqrt(E[w u^2] / E[w]) = sqrt((1 - 6 / k^2 + 15 / k^4) / (1 - 2 / k^2 + 3 / k^4)).
 constexpr double kTukeyScatter = 0.94468;
-constexpr double kMaxAngleDeviation = 0.01;  // rad; a wall that tells less keeps its direction
+// And their efficiency: the deviation of a mean over weights of sum w is this over sqrt(w), from
+// E[w] E[w^2 u^2] / E[(w u)']^2 with E[w^2 u^2] = 1 - 12 / k^2 + 90 / k^4 - 420 / k^6 + 945 / k^8
+// and E[(w u)'] = 1 - 6 / k^2 + 15 / k^4.
+constexpr double kTukeyDeviation = 0.98237;
+constexpr double kMaxAngleDeviation = 0.05;  // rad; a wall that tells less keeps its direction,
+                                             // unless its points contradict
 constexpr double kSameDirection = 3.5;       // standard deviations
 constexpr double kMinTurn = 0.03;            // rad; lines that cross at less have no stable corner
 constexpr std::size_t kMinSupport = 8;       // points
@@ -76,23 +79,11 @@ Walls wallsOf(const std::vector<FloorplanLayer>& layers) {
 void collectMoments(const std::vector<FloorplanLayer>& layers, const FitPoints& points,
                     double noise, Walls& walls) {
   for (auto& [id, wall] : walls) wall.clear();
-  std::vector<detail::EdgeIndex> indices;
-  for (const FloorplanLayer& layer : layers) {
-    indices.emplace_back(detail::stretchesOf(layer.plan), kGate * noise);
-  }
+  const detail::WallAssignment assignment(layers, noise);
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
-    if (!detail::isWallNormal(points.normals[i])) continue;
-    const Eigen::Vector3d p = points.positions[i].cast<double>();
-    const auto layer = std::upper_bound(
-        layers.begin(), layers.end(), p.z(),
-        [](double z, const FloorplanLayer& candidate) { return z < candidate.z_max; });
-    if (layer == layers.end() || p.z() < layer->z_min) continue;
-    const detail::EdgeIndex& index = indices[static_cast<std::size_t>(layer - layers.begin())];
-    const int edge =
-        index.nearest(p.head<2>(), points.normals[i].head<2>().cast<double>(), kEndMargin * noise);
-    if (edge < 0) continue;
-    const auto wall = walls.find(index[static_cast<std::size_t>(edge)].wall);
-    if (wall != walls.end()) wall->second.add(p.head<2>(), kTukey * noise);
+    const auto wall = walls.find(assignment.wallOf(points.positions[i], points.normals[i]));
+    if (wall == walls.end()) continue;
+    wall->second.add(points.positions[i].head<2>().cast<double>(), kTukey * noise);
   }
 }
 
@@ -109,13 +100,17 @@ std::map<int, WallFit> solve(Walls& walls, double noise) {
     if (wall.support >= kMinSupport && wall.w > 0.0 && wall.spread() > 0.0) {
       double slope = (wall.sd - wall.s * wall.d / wall.w) / wall.spread();
       fit.support = wall.support;
-      fit.angle_deviation = std::max(wall.residual(slope), 0.1 * noise) / std::sqrt(wall.spread());
-      if (fit.angle_deviation > kMaxAngleDeviation) slope = 0.0;
+      const double deviation = kTukeyDeviation * std::max(wall.residual(slope), 0.1 * noise);
+      fit.angle_deviation = deviation / std::sqrt(wall.spread());
+      fit.offset_deviation = deviation / std::sqrt(wall.w);
+      const bool contradicts = std::abs(slope) > kSameDirection * fit.angle_deviation;
+      if (fit.angle_deviation > kMaxAngleDeviation && !contradicts) slope = 0.0;
       fit.residual = wall.residual(slope);
       const Eigen::Vector2d centre =
           wall.reference + (wall.s / wall.w) * wall.tangent() + (wall.d / wall.w) * wall.normal;
       fit.normal = (wall.normal - slope * wall.tangent()).normalized();
       fit.offset = fit.normal.dot(centre);
+      fit.centre = centre;
       wall.reference = centre;  // the line turns about the centre of its points
       wall.normal = fit.normal;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is written of a model can be read back: the same vertices, polygons and attributes.
 #include <gtest/gtest.h>
+#include <storey/surface/extrusion.h>
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -217,6 +218,30 @@ TEST(ModelIo, ModelsWithHolesBecomeClosedFilesWithoutHoles) {
   }
 }
 
+TEST(ModelPly, HoldsWhatThePointsSay) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("m.ply");
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  io::PolygonSoup soup;
+  soup.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  soup.deviations = {0.5, 0.25, kUnknown, 0.125};
+  soup.polygons = {{{0, 2, 1}, 2, -1, 0, true, 0, 0.0, 0.0, kUnknown},
+                   {{0, 1, 3}, 0, 5, 0, false, 1234, 0.75, 0.5, 0.0625}};
+  for (const auto encoding : {io::PlyEncoding::Ascii, io::PlyEncoding::Binary}) {
+    io::writePolygonsPly(path, soup, translation(0, 0, 0), encoding);
+    const io::PolygonSoup read = io::readPolygons(path);
+    EXPECT_EQ(read.deviations, soup.deviations);
+    ASSERT_EQ(read.polygons.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(read.polygons[i].hypothetical, soup.polygons[i].hypothetical);
+      EXPECT_EQ(read.polygons[i].support, soup.polygons[i].support);
+      EXPECT_EQ(read.polygons[i].coverage, soup.polygons[i].coverage);
+      EXPECT_EQ(read.polygons[i].residual, soup.polygons[i].residual);
+      EXPECT_EQ(read.polygons[i].deviation, soup.polygons[i].deviation);
+    }
+  }
+}
+
 FloorplanRing ring(const std::vector<Eigen::Vector2d>& vertices, int first_wall) {
   FloorplanRing result;
   result.vertices = vertices;
@@ -229,7 +254,7 @@ FloorplanRing ring(const std::vector<Eigen::Vector2d>& vertices, int first_wall)
   return result;
 }
 
-std::vector<FloorplanLayer> courtyardLayers() {
+PolyhedralModel courtyardStoreys() {
   FloorplanLayer layer;
   layer.z_min = 0.5;
   layer.z_max = 3.0;
@@ -243,13 +268,15 @@ std::vector<FloorplanLayer> courtyardLayers() {
   upper.z_min = 3.0;
   upper.z_max = 5.0;
   upper.plan.components.pop_back();
-  return {layer, upper};
+  PolyhedralModel model;
+  model.storeys = {layer, upper};
+  return model;
 }
 
 TEST(FloorplanGeoJson, HoldsRingsHeightsAndWalls) {
   const TemporaryDirectory directory;
   const std::string path = directory.file("f.geojson");
-  io::writeFloorplansGeoJson(path, courtyardLayers(), translation(447000.25, 5411000.5, 100.0));
+  io::writeFloorplansGeoJson(path, courtyardStoreys(), translation(447000.25, 5411000.5, 100.0));
   const auto json = nlohmann::json::parse(readAll(path));
   EXPECT_EQ(json["type"], "FeatureCollection");
   ASSERT_EQ(json["features"].size(), 2u);
@@ -270,7 +297,39 @@ TEST(FloorplanGeoJson, HoldsRingsHeightsAndWalls) {
   EXPECT_DOUBLE_EQ(properties["perimeter"], 16.0 + 4.0 + 3.0 + std::sqrt(5.0));
   EXPECT_EQ(properties["walls"].dump(), "[[[0,1,2,3],[4,5,6,7]],[[10,11,12]]]");
   EXPECT_EQ(properties["hypothetical"][1].dump(), "[[false,true,false]]");
+  EXPECT_EQ(properties["coverage"][1].dump(), "[[null,null,null]]");  // the model has no faces
   EXPECT_EQ(json["features"][1]["properties"]["area"], 15.0);
+}
+
+TEST(FloorplanGeoJson, HoldsWhatIsKnownOfTheFaceAtEachEdge) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("f.geojson");
+  PolyhedralModel model = extrudeFloorplans(courtyardStoreys().storeys);
+  for (PolyhedralFace& face : model.faces) {
+    if (face.label != FaceLabel::Wall) continue;
+    face.coverage = face.wall / 16.0;
+    face.hypothetical = face.wall == 6;
+    if (face.wall != 7) face.deviation = 0.25 * face.wall;
+  }
+  io::writeFloorplansGeoJson(path, model, translation(0, 0, 0));
+  const auto json = nlohmann::json::parse(readAll(path));
+  for (const auto& feature : json["features"]) {
+    const auto& properties = feature["properties"];
+    for (std::size_t p = 0; p < properties["walls"].size(); ++p) {
+      for (std::size_t r = 0; r < properties["walls"][p].size(); ++r) {
+        for (std::size_t e = 0; e < properties["walls"][p][r].size(); ++e) {
+          const int wall = properties["walls"][p][r][e];
+          EXPECT_EQ(properties["coverage"][p][r][e], wall / 16.0);
+          EXPECT_EQ(properties["hypothetical"][p][r][e], e == 1 || wall == 6);
+          if (wall == 7) {
+            EXPECT_TRUE(properties["deviation"][p][r][e].is_null());
+          } else {
+            EXPECT_EQ(properties["deviation"][p][r][e], 0.25 * wall);
+          }
+        }
+      }
+    }
+  }
 }
 
 // The written coordinates with the written matrix give the input's coordinates, tilted or not.
@@ -278,7 +337,7 @@ TEST(FloorplanGeoJson, MatrixTakesCoordinatesToTheInput) {
   const TemporaryDirectory directory;
   const std::string path = directory.file("f.geojson");
   for (const Eigen::Isometry3d& transform : {translation(447000.25, 5411000.5, 100.0), ecef()}) {
-    io::writeFloorplansGeoJson(path, courtyardLayers(), transform);
+    io::writeFloorplansGeoJson(path, courtyardStoreys(), transform);
     const auto json = nlohmann::json::parse(readAll(path));
     Eigen::Matrix4d matrix;
     for (int row = 0; row < 4; ++row) {
@@ -314,7 +373,7 @@ TEST(ModelIo, AFullDiskIsNoticedByEveryWriter) {
   };
   expectIoError([&] { io::writePolygonsPly("/dev/full", boxSoup(), none); });
   expectIoError([&] { io::writePolygonsObj("/dev/full", boxSoup(), none); });
-  expectIoError([&] { io::writeFloorplansGeoJson("/dev/full", courtyardLayers(), none); });
+  expectIoError([&] { io::writeFloorplansGeoJson("/dev/full", courtyardStoreys(), none); });
 }
 
 }  // namespace

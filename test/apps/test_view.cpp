@@ -192,7 +192,22 @@ TEST(ModelPicture, TellsKindsOfFacesApart) {
     }
   }
   EXPECT_EQ(texts, (std::vector<std::string>{"wall: 3", "roof: 1", "ground: 1", "ceiling: 0",
-                                             "wall not seen: 1"}));
+                                             "wall partly seen: 0", "wall not seen: 1"}));
+}
+
+TEST(ModelPicture, TellsWallsApartThatWereSeenInPart) {
+  const BoxReconstruction box;
+  io::PolygonSoup soup = test::boxSoup();
+  soup.deviations.assign(soup.vertices.size(), 0.01);
+  const double coverages[] = {1.0, 0.5, 0.7, 0.1, 0.0, 0.0};  // the fourth is hypothetical
+  for (std::size_t i = 0; i < 6; ++i) soup.polygons[i].coverage = coverages[i];
+  io::writePolygonsPly(box.file("model.ply"), soup, Eigen::Isometry3d::Identity());
+  const Drawing drawing = makeDrawing(Reconstruction(box.path()), Stage::Model, View::Top, {});
+  ASSERT_EQ(drawing.legend.size(), 6u);
+  EXPECT_EQ(drawing.legend[0].text, "wall: 2");
+  EXPECT_EQ(drawing.legend[1].text, "roof: 1");  // level faces are what they are
+  EXPECT_EQ(drawing.legend[4].text, "wall partly seen: 1");
+  EXPECT_EQ(drawing.legend[5].text, "wall not seen: 1");
 }
 
 TEST(ModelPicture, APolygonThatIsNoneIsRefused) {

@@ -58,6 +58,33 @@ TYPED_TEST(MRFReconstruction, HasTheVolumeOfTheBuilding) {
   }
 }
 
+TYPED_TEST(MRFReconstruction, OfALeaningCloudLeansWithIt) {
+  // 0.3 degrees: over a height of 8 that is 0.04, a wall is good to 0.05 / sqrt(300) = 0.003.
+  const auto upright = building<TypeParam>(0.4);
+  const auto leaning = building<TypeParam>(0.4);
+  const Eigen::Quaternionf tilt(Eigen::AngleAxisf(0.3F * static_cast<float>(M_PI) / 180.0F,
+                                                  Eigen::Vector3f(0.6F, 0.8F, 0.0F)));
+  for (TypeParam& p : *leaning) p.getVector3fMap() = tilt * p.getVector3fMap();
+  pcl::PolygonMesh meshes[2];
+  for (const bool leans : {false, true}) {
+    LayerwiseMRFReconstruction<TypeParam> reconstruction;
+    reconstruction.setInputCloud(leans ? leaning : upright);
+    reconstruction.setFloorplans(slices(0.4));
+    reconstruction.reconstruct(meshes[leans]);
+    EXPECT_EQ(reconstruction.getResult().upright.isApprox(Eigen::Isometry3d::Identity()), !leans);
+  }
+  const Mesh straight(meshes[0]);
+  const Mesh tilted(meshes[1]);
+  ASSERT_EQ(straight.vertices.size(), tilted.vertices.size());
+  for (const Eigen::Vector3d& v : straight.vertices) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector3d& w : tilted.vertices) {
+      nearest = std::min(nearest, (tilt.cast<double>() * v - w).norm());
+    }
+    EXPECT_LT(nearest, 0.015);
+  }
+}
+
 TYPED_TEST(MRFReconstruction, WithoutFloorplansFindsThemItself) {
   LayerwiseMRFReconstruction<TypeParam> reconstruction;
   reconstruction.setInputCloud(building<TypeParam>(0.4));

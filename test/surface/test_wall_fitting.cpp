@@ -105,6 +105,77 @@ TEST(FitWalls, IsAsAccurateAsTheNumberOfPointsAllows) {
   EXPECT_NEAR(residuals / count, 1.0, 0.01);
 }
 
+// Normals N(0, 15 degrees) about the true ones, in plan; or none.
+void disturbNormals(bool known, std::mt19937& random, FitPoints& points) {
+  std::normal_distribution<double> turn(0.0, M_PI / 12.0);
+  for (Eigen::Vector3f& n : points.normals) {
+    if (!known) {
+      n.setZero();
+      continue;
+    }
+    n.head<2>() = Eigen::Rotation2Df(static_cast<float>(turn(random))) * n.head<2>().eval();
+  }
+}
+
+TEST(FitWalls, CornersWhereTwoWallsMixMoveNoWall) {
+  // Of all n = 5 L H points of a wall those near its ends take no part, and what is taken there of
+  // the neighbour moves it. That may cost 4 % of sigma^2 / n, Tukey's weights 2 %; the
+  // mean, over 6 x 100 errors, may be off by a fifth of a deviation.
+  for (const bool known : {true, false}) {
+    double squares = 0.0;
+    double sum = 0.0;
+    constexpr int kDraws = 100;
+    for (unsigned draw = 0; draw < kDraws; ++draw) {
+      WallSampler sampler(kSigma, 3000 + draw);
+      FitPoints points;
+      sampler.addLayers(lShape(), 5.0, points);
+      disturbNormals(known, sampler.random(), points);
+      auto layers = lShape();
+      const auto fits = fitWalls(layers, points, options());
+      const FloorplanRing& outer = lShape()[0].plan.components[0].outer;
+      for (const auto& [wall, fit] : fits) {
+        const auto i = static_cast<std::size_t>(wall);
+        const double length = (outer.vertices[(i + 1) % 6] - outer.vertices[i]).norm();
+        const double error = errorAtMiddle(fit, outer, i) * std::sqrt(5.0 * 10.0 * length) / kSigma;
+        squares += error * error / (6 * kDraws);
+        sum += error / (6 * kDraws);
+      }
+    }
+    EXPECT_LT(squares, 1.06 * (1.0 + 3.0 * std::sqrt(2.0 / (6 * kDraws))));
+    EXPECT_LT(std::abs(sum), 0.2);
+  }
+}
+
+TEST(FitWalls, TheStatedDeviationsAreTrue) {
+  // 2 x 6 errors of each of 100 clouds: of the offset at the centre of the points, and of the wall
+  // at its first corner. 95.45 % lie within two deviations; those of shared directions are
+  // alike, so that 1200 errors count as 800 or more: give or take 0.75 %.
+  int within = 0;
+  constexpr int kDraws = 100;
+  for (unsigned draw = 0; draw < kDraws; ++draw) {
+    WallSampler sampler(kSigma, 4000 + draw);
+    FitPoints points;
+    sampler.addLayers(lShape(), 5.0, points);
+    disturbNormals(true, sampler.random(), points);
+    auto layers = disturbed(lShape(), kSigma, sampler.random());
+    const auto fits = fitWalls(layers, points, options());
+    const FloorplanRing& outer = lShape()[0].plan.components[0].outer;
+    for (const auto& [wall, fit] : fits) {
+      const Eigen::Vector2d corner = outer.vertices[static_cast<std::size_t>(wall)];
+      const Eigen::Vector2d next = outer.vertices[(static_cast<std::size_t>(wall) + 1) % 6];
+      const Eigen::Vector2d along = (next - corner).normalized();
+      const Eigen::Vector2d normal(along.y(), -along.x());
+      const Eigen::Vector2d tangent(-fit.normal.y(), fit.normal.x());
+      const double place = tangent.dot(corner - fit.centre);
+      EXPECT_NEAR(fit.normal.dot(fit.centre), fit.offset, 1e-9);
+      within += std::abs(normal.dot(fit.centre - corner)) < 2.0 * fit.offset_deviation;
+      within += std::abs(fit.offset - fit.normal.dot(corner)) <
+                2.0 * std::hypot(fit.offset_deviation, place * fit.angle_deviation);
+    }
+  }
+  EXPECT_NEAR(within / (12.0 * kDraws), 0.9545, 3.0 * 0.0075);
+}
+
 TEST(FitWalls, ParallelWallsShareOneDirection) {
   double shared_squares = 0.0;
   double separate_squares = 0.0;
@@ -136,6 +207,29 @@ TEST(FitWalls, ParallelWallsShareOneDirection) {
   }
   // Of three walls the shortest gain most; on the whole the square falls to less than half.
   EXPECT_LT(shared_squares, 0.5 * separate_squares);
+}
+
+TEST(FitWalls, AShortWallFoundAslantTurnsToItsPoints) {
+  // The sides of a bay, 15 deviations long, 12 degrees off: 15 of the deviations of their
+  // directions, sqrt(12) 0.1 / (1.5 sqrt 150) = 0.019.
+  const auto truth = named({layer(
+      0, 10, {ring({{0, 0}, {6, 0}, {6, -1.5}, {9, -1.5}, {9, 0}, {20, 0}, {20, 10}, {0, 10}})})});
+  WallSampler sampler(kSigma, 17);
+  FitPoints points;
+  sampler.addLayers(truth, 10.0, points);
+  auto layers = truth;
+  auto& corners = layers[0].plan.components[0].outer.vertices;
+  const double off = 0.75 * std::tan(12.0 * M_PI / 180.0);
+  corners[1].x() -= off;
+  corners[2].x() += off;
+  corners[3].x() -= off;
+  corners[4].x() += off;
+  fitWalls(layers, points, options());
+  for (std::size_t i = 1; i < 5; ++i) {
+    // At its end a wall is good to 2 sigma / sqrt(150); four times that.
+    EXPECT_LT((corners[i] - truth[0].plan.components[0].outer.vertices[i]).norm(),
+              4.0 * 2.0 * kSigma / std::sqrt(150.0));
+  }
 }
 
 TEST(FitWalls, WallsOfDifferentDirectionsDoNotShare) {

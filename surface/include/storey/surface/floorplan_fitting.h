@@ -4,7 +4,9 @@
 #include <storey/segmentation/floorplan.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -18,12 +20,28 @@ struct FitPoints {
 };
 
 /// One vertical plane of the building: normal . (x, y) = offset, fitted to all its points.
+///
+/// Deviations are standard ones and hold for points that err independently. The errors of offset
+/// and direction are independent too: `offset_deviation` is that of the plane at `centre`, and at
+/// the distance s along it has the deviation hypot(offset_deviation, s angle_deviation).
 struct WallFit {
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();  ///< unit, outwards
   double offset = 0.0;
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< of the points, on the plane
   std::size_t support = 0;     ///< points within the gate; 0: not seen, the line is as it was
   double residual = 0.0;       ///< standard deviation of the points across
-  double angle_deviation = 0;  ///< standard deviation of the direction, radians
+  double angle_deviation = 0;  ///< of the direction, radians; of all walls that share it, if shared
+  double offset_deviation = std::numeric_limits<double>::infinity();  ///< infinite: not seen
+};
+
+/// One level of the building: the foot or the top of layers.
+struct HeightFit {
+  double z = 0.0;
+  std::size_t wall_support = 0;  ///< points of walls that end or start there, in the window
+  std::size_t cap_support = 0;   ///< points of roofs, grounds and ceilings there, in the window
+  double deviation =
+      std::numeric_limits<double>::infinity();  ///< standard deviation; infinite: nothing ends
+                                                ///< there clearly, the height is as it was
 };
 
 struct FitOptions {
@@ -42,11 +60,21 @@ struct FitOptions {
 std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPoints& points,
                                 const FitOptions& options);
 
-/// Moves the boundaries between layers, the foot and the top to where wall points end or start
-/// (doc/method.md, deviation 6): the maximum likelihood of a step in the density of the points,
-/// blurred by the noise, over all walls that end or start there together. A boundary without such
-/// points stays. Layers that shrink below three noise deviations are dropped.
-void fitHeights(std::vector<FloorplanLayer>& layers, const FitPoints& points,
-                const FitOptions& options);
+/// Moves the boundaries between layers, the foot and the top to where the points say they are
+/// (doc/method.md, deviation 6): the maximum likelihood of a step in the density of the points of
+/// all walls that end or start there, blurred by the noise, and of the points of the level faces
+/// there. A boundary that nothing clearly ends at stays. Layers that shrink below three noise
+/// deviations are dropped. \return the levels, foot to top, one more than layers are left; none,
+/// after a PCL_ERROR, for a bad option
+std::vector<HeightFit> fitHeights(std::vector<FloorplanLayer>& layers, const FitPoints& points,
+                                  const FitOptions& options);
+
+/// How far the walls lean together: what is left of the cloud's tilt when its walls are known.
+/// Each wall is fitted as r = a + b s + c z (s along it, r across), robustly, and the direction
+/// (u, 1) of the vertical from c = n . u over all walls, again robustly: single walls may lean.
+/// \return the rotation about the middle of the points that sets them upright; the identity where
+/// the lean is below four standard deviations
+Eigen::Isometry3d fitUpright(const std::vector<FloorplanLayer>& layers, const FitPoints& points,
+                             double noise);
 
 }  // namespace storey

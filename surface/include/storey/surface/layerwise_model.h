@@ -20,7 +20,11 @@ struct LayerwiseModelOptions {
 
 struct LayerwiseModel {
   DominantFloorplans dominant;
-  std::map<int, WallFit> walls;  ///< by wall id
+  std::map<int, WallFit> walls;   ///< by wall id
+  std::vector<HeightFit> levels;  ///< foot to top
+  /// Takes the points to the frame that walls, levels and model are in: the identity, or the small
+  /// rotation that sets walls upright which lean together (`fitUpright`).
+  Eigen::Isometry3d upright = Eigen::Isometry3d::Identity();
   PolyhedralModel model;
   ModelCheck check;
 };
@@ -29,8 +33,7 @@ struct LayerwiseModel {
 /// chosen (11)-(15), their walls and heights fitted to all points, and extruded.
 /// \return an empty model if no slice has a floorplan
 LayerwiseModel buildLayerwiseModel(const std::vector<FloorplanLayer>& slices,
-                                   const FitPoints& points,
-                                   const LayerwiseModelOptions& options);
+                                   const FitPoints& points, const LayerwiseModelOptions& options);
 
 /// The same from blocks whose floorplans are chosen already (edges carry wall ids, as from
 /// `BuildingFloorplanExtraction`): fit, extrusion and checks. Equal outlines are one type.

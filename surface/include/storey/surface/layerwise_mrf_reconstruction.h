@@ -78,7 +78,8 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
   void reconstruct(pcl::PolygonMesh& output) override;
   void reconstruct(pcl::PointCloud<PointT>& points, std::vector<pcl::Vertices>& polygons) override;
 
-  /// The polyhedron of the last `reconstruct`.
+  /// The polyhedron of the last `reconstruct`, in the upright frame that
+  /// `LayerwiseModel::upright` takes the input to; the mesh is in the input's own.
   const PolyhedralModel& getModel() const { return result_.model; }
   /// Everything found on the way: types, blocks, energy, walls, the model's checks.
   const LayerwiseModel& getResult() const { return result_; }

@@ -39,9 +39,8 @@ class EdgeIndex {
   /// does not contradict; -1 if there is none. \param normal may be zero: unknown
   int nearest(const Eigen::Vector2d& point, const Eigen::Vector2d& normal, double margin) const;
 
-  /// Distance across to that stretch; infinite if there is none.
-  double distance(const Eigen::Vector2d& point, const Eigen::Vector2d& normal,
-                  double margin) const;
+  /// All stretches that may be within the gate of the point, and others; ascending.
+  const std::vector<int>& candidates(const Eigen::Vector2d& point) const;
 
   const WallStretch& operator[](std::size_t i) const { return stretches_[i]; }
   std::size_t size() const { return stretches_.size(); }

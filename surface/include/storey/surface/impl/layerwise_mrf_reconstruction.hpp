@@ -119,7 +119,7 @@ bool LayerwiseMRFReconstruction<PointT>::build() {
 
 template <typename PointT>
 void LayerwiseMRFReconstruction<PointT>::performReconstruction(pcl::PolygonMesh& output) {
-  output = toPolygonMesh(result_.model);
+  output = toPolygonMesh(result_.model, result_.upright.inverse());
   output.header = this->input_->header;
   output.cloud.header = this->input_->header;
 }
@@ -127,7 +127,7 @@ void LayerwiseMRFReconstruction<PointT>::performReconstruction(pcl::PolygonMesh&
 template <typename PointT>
 void LayerwiseMRFReconstruction<PointT>::performReconstruction(
     pcl::PointCloud<PointT>& points, std::vector<pcl::Vertices>& polygons) {
-  const pcl::PolygonMesh mesh = toPolygonMesh(result_.model);
+  const pcl::PolygonMesh mesh = toPolygonMesh(result_.model, result_.upright.inverse());
   pcl::PointCloud<pcl::PointXYZ> vertices;
   pcl::fromPCLPointCloud2(mesh.cloud, vertices);
   pcl::copyPointCloud(vertices, points);

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <storey/surface/floorplan_fitting.h>
+
+#include <array>
+#include <vector>
+
+namespace storey::detail {
+
+/// What the points tell of one level: heights, each list ascending. Those of walls are of points
+/// between `low` and `high`, the window that the density of the points is taken from.
+struct LevelEvidence {
+  double guess = 0.0;
+  double low = 0.0;
+  double high = 0.0;
+  /// Points of walls that end at the level, and of those that start there; [1]: of walls with one
+  /// of the other layer so close beside that points of both mix.
+  std::array<std::vector<double>, 2> ends;
+  std::array<std::vector<double>, 2> starts;
+  std::vector<double> caps;  ///< points of the level faces: roofs, grounds, ceilings
+};
+
+/// The evidence of all levels in one pass over the points: level k is the foot of layer k, the last
+/// one the top.
+std::vector<LevelEvidence> collectLevelEvidence(const std::vector<FloorplanLayer>& layers,
+                                                const FitPoints& points, const FitOptions& options);
+
+/// The height of a level by maximum likelihood, at most `max_shift` from its guess.
+///
+/// Heights of points of a wall that ends at z are a Poisson process of intensity
+///     lambda ((1 - q) Phi((z - z_i) / sigma) + q),
+/// with q the share of strays (points of close neighbours that go on), of each of the four lists;
+/// those of a level face are N(z, sigma), but for a tenth that lie anywhere. lambda and q are
+/// profiled out, and all is
+/// relative to "nothing ends here": uniform over the window. A level whose likelihood is not
+/// clearly more than that (by a factor of e^10) stays at its guess with an infinite deviation.
+HeightFit fitLevel(const LevelEvidence& level, double noise, double max_shift);
+
+}  // namespace storey::detail

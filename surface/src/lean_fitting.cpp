@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl/console/print.h>
+#include <storey/surface/detail/wall_assignment.h>
+#include <storey/surface/floorplan_fitting.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace storey {
+namespace {
+
+constexpr double kTukey = 6.0;           // noise deviations
+constexpr double kWallLean = 3e-4;       // rad; walls themselves are no more upright than this
+constexpr double kHuber = 2.0;           // deviations
+constexpr int kRounds = 10;              // of reweighting
+constexpr double kClear = 4.0;           // deviations; one cloud in 3000 leans as far by chance
+constexpr std::size_t kMinSupport = 20;  // points of a wall
+constexpr double kMinPivot = 1e-9;       // of the largest: below, there is no solution
+
+// Weighted moments of the points of a wall, across it against (1, along it, height).
+struct LeaningWall {
+  Eigen::Vector2d reference;
+  Eigen::Vector2d normal;
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d products = Eigen::Vector3d::Zero();
+  double squares = 0.0;
+  std::size_t support = 0;
+
+  void add(const Eigen::Vector3d& point, double scale) {
+    const Eigen::Vector2d r = point.head<2>() - reference;
+    const double across = r.dot(normal);
+    const double u = across / scale;
+    if (std::abs(u) >= 1.0) return;
+    const double weight = (1.0 - u * u) * (1.0 - u * u);
+    const Eigen::Vector3d row(1.0, normal.x() * r.y() - normal.y() * r.x(), point.z());
+    moments += weight * row * row.transpose();
+    products += weight * across * row;
+    squares += weight * across * across;
+    ++support;
+  }
+};
+
+// c of a wall: how far it moves outwards with each unit of height.
+struct Lean {
+  Eigen::Vector2d normal;
+  double slope = 0.0;
+  double variance = 0.0;
+};
+
+std::map<int, LeaningWall> collect(const std::vector<FloorplanLayer>& layers,
+                                   const FitPoints& points, const Eigen::Vector3d& middle,
+                                   double noise) {
+  std::map<int, LeaningWall> walls;
+  for (const FloorplanLayer& layer : layers) {
+    for (const detail::WallStretch& stretch : detail::stretchesOf(layer.plan)) {
+      if (stretch.wall < 0) continue;
+      LeaningWall wall;
+      wall.reference = stretch.start - middle.head<2>();
+      wall.normal = stretch.normal();
+      walls.emplace(stretch.wall, wall);
+    }
+  }
+  const detail::WallAssignment assignment(layers, noise);
+  for (std::size_t i = 0; i < points.positions.size(); ++i) {
+    const auto wall = walls.find(assignment.wallOf(points.positions[i], points.normals[i]));
+    if (wall == walls.end()) continue;
+    wall->second.add(points.positions[i].cast<double>() - middle, kTukey * noise);
+  }
+  return walls;
+}
+
+std::vector<Lean> leansOf(const std::map<int, LeaningWall>& walls) {
+  std::vector<Lean> leans;
+  for (const auto& [id, wall] : walls) {
+    if (wall.support < kMinSupport) continue;
+    Eigen::FullPivLU<Eigen::Matrix3d> lu(wall.moments);
+    lu.setThreshold(kMinPivot);
+    if (!lu.isInvertible()) continue;
+    const Eigen::Matrix3d inverse = lu.inverse();
+    const Eigen::Vector3d fit = inverse * wall.products;
+    const double residual =
+        std::max(0.0, wall.squares - fit.dot(wall.products)) / wall.moments(0, 0);
+    leans.push_back({wall.normal, fit[2], residual * inverse(2, 2) + kWallLean * kWallLean});
+  }
+  return leans;
+}
+
+// The lean (x and y of the vertical where its z is 1), or zero if it is not clear.
+Eigen::Vector2d commonLean(const std::vector<Lean>& leans) {
+  Eigen::Vector2d lean = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  for (int round = 0; round < kRounds; ++round) {
+    information.setZero();
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const Lean& wall : leans) {
+      const double off = std::abs(wall.slope - wall.normal.dot(lean)) / std::sqrt(wall.variance);
+      const double weight = std::min(1.0, kHuber / off) / wall.variance;
+      information += weight * wall.normal * wall.normal.transpose();
+      sum += weight * wall.slope * wall.normal;
+    }
+    Eigen::FullPivLU<Eigen::Matrix2d> lu(information);
+    lu.setThreshold(kMinPivot);
+    if (!lu.isInvertible()) return Eigen::Vector2d::Zero();  // all walls are parallel
+    lean = lu.solve(sum);
+  }
+  return lean.dot(information * lean) > kClear * kClear ? lean : Eigen::Vector2d::Zero();
+}
+
+}  // namespace
+
+Eigen::Isometry3d fitUpright(const std::vector<FloorplanLayer>& layers, const FitPoints& points,
+                             double noise) {
+  Eigen::Isometry3d upright = Eigen::Isometry3d::Identity();
+  if (!(noise > 0.0) || std::isinf(noise) || points.normals.size() != points.positions.size()) {
+    PCL_ERROR("[storey::fitUpright] noise is %g, and there are %zu normals for %zu points.\n",
+              noise, points.normals.size(), points.positions.size());
+    return upright;
+  }
+  if (points.positions.empty()) return upright;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3f& p : points.positions) middle += p.cast<double>();
+  middle /= static_cast<double>(points.positions.size());
+  const Eigen::Vector2d lean = commonLean(leansOf(collect(layers, points, middle, noise)));
+  if (lean.isZero()) return upright;
+  upright.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(lean.x(), lean.y(), 1.0),
+                                                        Eigen::Vector3d::UnitZ())
+                         .toRotationMatrix();
+  upright.translation() = middle - upright.linear() * middle;
+  return upright;
+}
+
+}  // namespace storey
