@@ -2,6 +2,7 @@
 // Measures a model against the true one, or against the cloud it was made from.
 #include <storey/features/pca_normals.h>
 #include <storey/filters/cloud_scale.h>
+#include <storey/filters/detail/wall_relief.h>
 
 #include <boost/program_options.hpp>
 #include <cmath>
@@ -46,7 +47,7 @@ bool parse(int argc, char** argv, Request& r) {
       "Lengths are in the unit of the files");
   visible.add_options()("cloud", options::value(&r.cloud), "cloud (.ply, .pcd) to compare with")(
       "sigma", options::value(&r.sigma)->default_value(0.0),
-      "noise of the cloud; 0: estimated from it")(
+      "deviation of the points about their walls; 0: estimated, relief included")(
       "up", options::value(&r.up), "the vertical, X,Y,Z [from the model's roofs, else 0,0,1]")(
       "json", options::bool_switch(&r.json), "print JSON")("help,h", "this text");
   options::options_description all;
@@ -171,13 +172,30 @@ Eigen::Vector3d parseUp(const std::string& text) {
   return up.normalized();
 }
 
+// Deviation of the points about their walls, relief included, as the reconstruction sees it.
+double wallNoise(const pcl::PointCloud<pcl::PointNormal>& cloud, const storey::CloudScale& scale,
+                 const Eigen::Vector3d& up) {
+  const Eigen::Quaternionf upright =
+      Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).cast<float>();
+  std::vector<Eigen::Vector3f> positions;
+  std::vector<Eigen::Vector3f> normals;
+  for (const pcl::PointNormal& p : cloud) {
+    const Eigen::Vector3f normal = upright * p.getNormalVector3fMap();
+    if (!(std::abs(normal.z()) < synth::kWallPoint)) continue;
+    positions.push_back(upright * p.getVector3fMap());
+    normals.push_back(normal);
+  }
+  return storey::detail::estimateWallNoise(positions, normals, scale.noise, scale.extent);
+}
+
 synth::CloudEvaluation againstCloud(const Request& request, io::PolygonSoup model) {
   const io::LoadedCloud loaded = io::readCloud(request.cloud);
+  const Eigen::Vector3d up = request.up.empty() ? synth::upOfModel(model) : parseUp(request.up);
   if (!loaded.has_normals) {
     storey::estimateNormals(*loaded.cloud);
   }
   const storey::CloudScale scale = storey::estimateCloudScale(*loaded.cloud);
-  const double sigma = request.sigma > 0.0 ? request.sigma : scale.noise;
+  const double sigma = request.sigma > 0.0 ? request.sigma : wallNoise(*loaded.cloud, scale, up);
   if (!(sigma > 0.0 && scale.density > 0.0)) {
     throw io::Failure(io::BadInput, request.cloud, "noise or density cannot be told from the cloud",
                       "give --sigma, or a cloud with more points");
@@ -189,7 +207,6 @@ synth::CloudEvaluation againstCloud(const Request& request, io::PolygonSoup mode
   for (const pcl::PointNormal& p : *loaded.cloud) {
     points.push_back({p.getVector3fMap().cast<double>(), p.getNormalVector3fMap().cast<double>()});
   }
-  const Eigen::Vector3d up = request.up.empty() ? synth::upOfModel(model) : parseUp(request.up);
   return synth::evaluateAgainstCloud(model, points, up, sigma, scale.density);
 }
 

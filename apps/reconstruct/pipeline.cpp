@@ -27,10 +27,7 @@ constexpr double kLevelFloor = 1e-4;  // rad, where the accuracy is not known
 // A building must show its walls: normals of all directions alike have a share of 0.105 within 6
 // degrees of level, and buildings seen from a drone 0.14 and more.
 constexpr double kMinWallShare = 0.07;
-constexpr double kMaxWallTilt = 0.61;   // sin(35 degrees) = 0.57; see GravitySlicing
-constexpr double kReliefRadius = 0.05;  // of the extent: about a wall
-constexpr double kReliefRatio = 1.4;    // of the noise
-constexpr double kLeastNoise = 1e-5;    // of the extent, for clouds without any
+constexpr double kMaxWallTilt = 0.61;  // sin(35 degrees) = 0.57; see GravitySlicing
 
 std::string format(const char* text, ...) __attribute__((format(printf, 1, 2)));
 std::string format(const char* text, ...) {
@@ -159,8 +156,6 @@ class Pipeline {
         result_.scale.extent);
   }
 
-  // Later stages ask how far points lie off their wall: the relief of the wall, if that is clearly
-  // more than the noise.
   double noiseOfWalls(const pcl::Indices& walls) const {
     std::vector<Eigen::Vector3f> positions;
     std::vector<Eigen::Vector3f> normals;
@@ -169,10 +164,7 @@ class Pipeline {
       positions.push_back(p.getVector3fMap());
       normals.push_back(p.getNormalVector3fMap());
     }
-    const double noise = std::max(result_.scale.noise, kLeastNoise * result_.scale.extent);
-    const double relief =
-        detail::estimateWallRelief(positions, normals, kReliefRadius * result_.scale.extent, noise);
-    return relief > kReliefRatio * noise ? relief : noise;
+    return detail::estimateWallNoise(positions, normals, result_.scale.noise, result_.scale.extent);
   }
 
   std::string filterPlanar() {

@@ -17,7 +17,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Cell = std::pair<long, long>;
 
-constexpr double kWallPoint = 0.3;  // largest |n.up|
 constexpr double kWallFace = 0.1;
 constexpr double kReach = 3.0;          // deviations of the noise
 constexpr double kPointsPerCell = 6.0;  // exp(-6) = 1 / 403 of them empty by chance

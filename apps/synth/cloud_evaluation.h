@@ -9,6 +9,8 @@
 
 namespace storey::synth {
 
+constexpr double kWallPoint = 0.3;  ///< largest |n.up| of a wall point
+
 /// How well a model and a real cloud agree, where no truth is known.
 struct CloudEvaluation {
   double sigma = 0.0;      ///< noise that the distances are compared with
@@ -27,7 +29,7 @@ struct OrientedPosition {
   Eigen::Vector3d normal;  ///< unit length; the sign does not matter
 };
 
-/// Wall points are those with |n.up| < 0.3; walls are polygons with |n.up| < 0.1. Walls are
+/// Wall points are those with |n.up| < kWallPoint; walls are polygons with |n.up| < 0.1. Walls are
 /// rastered into square cells of max(3 sigma, sqrt(6 / density)), so that a cell on a wall that
 /// was seen has 6 points on average and is missed once in 400 cells. A cell belongs to the
 /// polygon that its centre lies in; a polygon too thin to have one counts as one cell.

@@ -14,6 +14,9 @@ constexpr std::size_t kMaxPoints = 2000;  // of one neighbourhood
 constexpr double kGate = 8.0;             // noise deviations: more is another wall
 constexpr double kNormalDot = 0.7;        // cosine of 45 degrees
 constexpr int kRounds = 4;
+constexpr double kReliefRadius = 0.05;  // of the extent: about a wall
+constexpr double kReliefRatio = 1.4;    // of the noise
+constexpr double kLeastNoise = 1e-5;    // of the extent, for clouds without any
 constexpr double kMadToDeviation = 1.4826;
 
 double medianOf(std::vector<double>& values) {
@@ -81,6 +84,13 @@ double estimateWallRelief(const std::vector<Eigen::Vector3f>& positions,
     if (scatter >= 0.0) reliefs.push_back(scatter);
   }
   return reliefs.empty() ? noise : medianOf(reliefs);
+}
+
+double estimateWallNoise(const std::vector<Eigen::Vector3f>& positions,
+                         const std::vector<Eigen::Vector3f>& normals, double noise, double extent) {
+  const double least = std::max(noise, kLeastNoise * extent);
+  const double relief = estimateWallRelief(positions, normals, kReliefRadius * extent, least);
+  return relief > kReliefRatio * least ? relief : least;
 }
 
 }  // namespace storey::detail

@@ -38,7 +38,8 @@ std::size_t countCaps(const LineArrangement& plan, const std::vector<char>* lowe
   const std::size_t n = plan.cells.size();
   std::vector<int> change(n);
   for (std::size_t c = 0; c < n; ++c) {
-    change[c] = (lower != nullptr ? int{(*lower)[c]} : 0) - (upper != nullptr ? int{(*upper)[c]} : 0);
+    change[c] =
+        (lower != nullptr ? int{(*lower)[c]} : 0) - (upper != nullptr ? int{(*upper)[c]} : 0);
   }
   std::vector<std::size_t> root(n);
   std::iota(root.begin(), root.end(), std::size_t{0});

@@ -72,8 +72,8 @@ class Pruning {
       }
     }
     const auto lines = std::count(used.begin(), used.end(), 1);
-    return energy + cost_ * static_cast<double>(countFaces(plan_, stack) +
-                                                static_cast<std::size_t>(lines));
+    return energy +
+           cost_ * static_cast<double>(countFaces(plan_, stack) + static_cast<std::size_t>(lines));
   }
 
   bool acceptIfLower(Trials trials, std::size_t without = SIZE_MAX) {
@@ -94,9 +94,9 @@ class Pruning {
 
   bool dropRun(std::size_t b) {
     std::vector<OutlineRun> runs = outlines_[b].runs;
-    std::stable_sort(
-        runs.begin(), runs.end(),
-        [](const OutlineRun& one, const OutlineRun& other) { return one.seen < other.seen; });
+    std::stable_sort(runs.begin(), runs.end(), [](const OutlineRun& one, const OutlineRun& other) {
+      return one.seen < other.seen;
+    });
     for (const OutlineRun& run : runs) {
       if (run.seen > kTriedUpTo * cost_) return false;
       if (!outlines_[b].tried.emplace(run.first, run.last).second) continue;

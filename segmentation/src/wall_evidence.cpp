@@ -9,16 +9,16 @@
 namespace storey::detail {
 namespace {
 
-constexpr double kGate = 2.5;          // noise deviations
-constexpr double kMinAgreement = 0.5;  // cosine of 60 degrees
-constexpr double kBin = 3.0;           // noise deviations
-constexpr double kMaxBins = 300.0;     // the partition is quadratic in them
-constexpr double kMinPoints = 20.0;    // of an edge that takes part in the levels
-constexpr double kTilePoints = 6.0;    // a wall misses a tile once in 400
-constexpr double kSeenPoints = 5.0;    // fewer may be outliers
-constexpr double kFullDensity = 0.5;   // of the walls' density: a tile is seen wholly
-constexpr double kLeastDensity = 0.05;         // of the densest height's
-constexpr std::size_t kDensityReach = 3;       // bins up and down
+constexpr double kGate = 2.5;             // noise deviations
+constexpr double kMinAgreement = 0.5;     // cosine of 60 degrees
+constexpr double kBin = 3.0;              // noise deviations
+constexpr double kMaxBins = 300.0;        // the partition is quadratic in them
+constexpr double kMinPoints = 20.0;       // of an edge that takes part in the levels
+constexpr double kTilePoints = 6.0;       // a wall misses a tile once in 400
+constexpr double kSeenPoints = 5.0;       // fewer may be outliers
+constexpr double kFullDensity = 0.5;      // of the walls' density: a tile is seen wholly
+constexpr double kLeastDensity = 0.05;    // of the densest height's
+constexpr std::size_t kDensityReach = 3;  // bins up and down
 
 // n ln(n / length), the Poisson log-likelihood of n points at their own mean density.
 double logLikelihood(double n, double length) { return n > 0.0 ? n * std::log(n / length) : 0.0; }
@@ -119,8 +119,9 @@ WallEvidence gatherEvidence(const LineArrangement& plan, const std::vector<WallP
   evidence.num_bins = static_cast<std::size_t>((high - low) / evidence.bin) + 1;
   evidence.ahead.assign(plan.edges.size() * evidence.num_bins, 0.0f);
   evidence.behind.assign(plan.edges.size() * evidence.num_bins, 0.0f);
-  EdgeTiles tiles = makeTiles(
-      plan, std::max(evidence.bin, kTilePoints / (scale.density * evidence.bin)), evidence.num_bins);
+  EdgeTiles tiles =
+      makeTiles(plan, std::max(evidence.bin, kTilePoints / (scale.density * evidence.bin)),
+                evidence.num_bins);
 
   std::vector<std::size_t> first_edge(plan.lines.size() + 1, 0);  // edges are sorted by line
   for (const PlanEdge& edge : plan.edges) ++first_edge[static_cast<std::size_t>(edge.line) + 1];

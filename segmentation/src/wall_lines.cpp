@@ -235,12 +235,11 @@ bool explains(const WallLine& line, const WallPoint& p, double noise) {
 // mix, the greedy search leaves some that a line of their own fits.
 bool isLeftover(const FoundLine& weak, const std::vector<WallLine>& strong,
                 const std::vector<WallPoint>& points, double noise) {
-  const auto explained =
-      std::count_if(weak.support.begin(), weak.support.end(), [&](const int i) {
-        return std::any_of(strong.begin(), strong.end(), [&](const WallLine& line) {
-          return explains(line, points[static_cast<std::size_t>(i)], noise);
-        });
-      });
+  const auto explained = std::count_if(weak.support.begin(), weak.support.end(), [&](const int i) {
+    return std::any_of(strong.begin(), strong.end(), [&](const WallLine& line) {
+      return explains(line, points[static_cast<std::size_t>(i)], noise);
+    });
+  });
   return static_cast<double>(explained) > kLeftover * static_cast<double>(weak.support.size());
 }
 

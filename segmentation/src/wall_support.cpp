@@ -15,18 +15,18 @@ namespace {
 constexpr double kGates[] = {6.0, 5.0, 4.5, 4.0};  // noise deviations, one a round
 constexpr double kMinOccupancy = 0.3;              // of the expected points of a cell
 constexpr int kMinFullNeighbors = 3;               // of eight
-constexpr double kOn = 2.5;          // noise deviations: nearly all points of a wall
-constexpr double kBeside = 10.0;     // noise deviations
+constexpr double kOn = 2.5;                        // noise deviations: nearly all points of a wall
+constexpr double kBeside = 10.0;                   // noise deviations
 constexpr double kMinOnShare = 0.4;  // of the points to either side; 0.25 of an even density
 constexpr double kStray = 0.03;      // of the support, at either end
 constexpr double kTilePoints = 50.0;
 constexpr double kTileSpread = 0.5;             // noise deviations, relief that one wall may have
 constexpr double kMaxInconsistentShare = 0.15;  // of the support
-constexpr double kLeanDeviations = 4.0;  // of the slope of a run against the line
-constexpr double kLean = 1.0;            // noise deviations, over the length of the run
+constexpr double kLeanDeviations = 4.0;         // of the slope of a run against the line
+constexpr double kLean = 1.0;                   // noise deviations, over the length of the run
 constexpr double kMinFlatShare = 0.7;           // of the support of a line with a locked direction
-constexpr double kFlat = 0.6;  // noise deviations that the middle of a wall may be off its line
-constexpr int kProfileBins = 24;                // along the wall, for the flatness
+constexpr double kFlat = 0.6;     // noise deviations that the middle of a wall may be off its line
+constexpr int kProfileBins = 24;  // along the wall, for the flatness
 
 // Integer cells of (s, z) about a line, dense storage.
 class CellGrid {
@@ -387,7 +387,8 @@ std::vector<int> withoutLeaningRuns(const std::vector<WallPoint>& points,
   return kept;
 }
 
-// Whether the points keep to the line. Tree crowns and other clutter fill the space about it evenly.
+// Whether the points keep to the line. Tree crowns and other clutter fill the space about it
+// evenly.
 bool isSurface(const std::vector<WallPoint>& points, const std::vector<int>& support,
                const std::vector<int>& candidates, const WallScale& scale, const WallLine& line) {
   const Box box = boxOf(points, support, line);
@@ -415,8 +416,8 @@ std::pair<double, double> mainHeights(const std::vector<WallPoint>& points,
   std::vector<double> heights;
   for (const int i : support) heights.push_back(points[static_cast<std::size_t>(i)].z);
   const auto quantile = [&](double share) {
-    const auto place = heights.begin() + static_cast<std::ptrdiff_t>(
-                                             share * static_cast<double>(heights.size() - 1));
+    const auto place = heights.begin() +
+                       static_cast<std::ptrdiff_t>(share * static_cast<double>(heights.size() - 1));
     std::nth_element(heights.begin(), place, heights.end());
     return *place;
   };

@@ -90,21 +90,28 @@ std::vector<Lean> leansOf(const std::map<int, LeaningWall>& walls) {
 Eigen::Vector2d commonLean(const std::vector<Lean>& leans) {
   Eigen::Vector2d lean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  double scatter = 0.0;  // of the walls about the common lean, against their own deviations
   for (int round = 0; round < kRounds; ++round) {
     information.setZero();
+    scatter = 0.0;
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     for (const Lean& wall : leans) {
       const double off = std::abs(wall.slope - wall.normal.dot(lean)) / std::sqrt(wall.variance);
       const double weight = std::min(1.0, kHuber / off) / wall.variance;
       information += weight * wall.normal * wall.normal.transpose();
       sum += weight * wall.slope * wall.normal;
+      scatter += std::min(1.0, kHuber / off) * off * off;
     }
     Eigen::FullPivLU<Eigen::Matrix2d> lu(information);
     lu.setThreshold(kMinPivot);
     if (!lu.isInvertible()) return Eigen::Vector2d::Zero();  // all walls are parallel
     lean = lu.solve(sum);
   }
-  return lean.dot(information * lean) > kClear * kClear ? lean : Eigen::Vector2d::Zero();
+  // Where walls differ by more than their points' noise explains, they bulge and lean by
+  // themselves.
+  const double freedom = std::max(1.0, static_cast<double>(leans.size()) - 2.0);
+  const double clear = kClear * kClear * std::max(1.0, scatter / freedom);
+  return lean.dot(information * lean) > clear ? lean : Eigen::Vector2d::Zero();
 }
 
 }  // namespace

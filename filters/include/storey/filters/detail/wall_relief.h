@@ -15,4 +15,10 @@ namespace storey::detail {
 double estimateWallRelief(const std::vector<Eigen::Vector3f>& positions,
                           const std::vector<Eigen::Vector3f>& normals, double radius, double noise);
 
+/// The deviation of points about their walls that the later stages work with: the relief in a
+/// neighbourhood of a twentieth of the extent where that is clearly more than the noise, else the
+/// noise, and never less than 1e-5 of the extent.
+double estimateWallNoise(const std::vector<Eigen::Vector3f>& positions,
+                         const std::vector<Eigen::Vector3f>& normals, double noise, double extent);
+
 }  // namespace storey::detail

@@ -47,8 +47,8 @@ const pcl::PointCloud<NormalT>* chooseNormals(
 /// \param normals parallel to `cloud`; the points keep the order of `indices`
 template <typename PointT, typename NormalT>
 LabelPoints collectOrientedPoints(const pcl::PointCloud<PointT>& cloud,
-                                     const pcl::PointCloud<NormalT>& normals,
-                                     const pcl::Indices& indices) {
+                                  const pcl::PointCloud<NormalT>& normals,
+                                  const pcl::Indices& indices) {
   LabelPoints result;
   for (std::size_t place = 0; place < indices.size(); ++place) {
     const auto i = static_cast<std::size_t>(indices[place]);

@@ -27,8 +27,8 @@ struct BlockOutline {
 };
 
 /// Number of faces of the solid that stands on the outlines, bottom to top: the runs, those of
-/// neighbouring blocks that meet being one, and the connected parts of what one block covers and its
-/// neighbour does not.
+/// neighbouring blocks that meet being one, and the connected parts of what one block covers and
+/// its neighbour does not.
 std::size_t countFaces(const LineArrangement& plan, const std::vector<BlockOutline>& blocks);
 
 }  // namespace storey::detail

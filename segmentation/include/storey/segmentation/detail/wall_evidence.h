@@ -30,9 +30,10 @@ struct WallEvidence {
 /// confirms (within 60 degrees), there to its edge and bin.
 ///
 /// `seen` is counted in tiles of the edge, one bin high and as wide as six points need. A tile is
-/// seen wholly if its points (those ahead less those behind: errors of orientation cancel) have half
-/// the density of the walls at its height, and in proportion below that. So a dense patch does not
-/// stand for a whole wall, and walls that are sampled more thinly than others count all the same.
+/// seen wholly if its points (those ahead less those behind: errors of orientation cancel) have
+/// half the density of the walls at its height, and in proportion below that. So a dense patch does
+/// not stand for a whole wall, and walls that are sampled more thinly than others count all the
+/// same.
 WallEvidence gatherEvidence(const LineArrangement& plan, const std::vector<WallPoint>& points,
                             const WallScale& scale);
 
