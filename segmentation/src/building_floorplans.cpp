@@ -3,6 +3,7 @@
 #include <storey/segmentation/detail/line_refit.h>
 #include <storey/segmentation/detail/outline_faces.h>
 #include <storey/segmentation/detail/outline_pruning.h>
+#include <storey/segmentation/detail/transition_blocks.h>
 #include <storey/segmentation/detail/wall_lines.h>
 
 #include <algorithm>
@@ -208,6 +209,7 @@ BuildingFloorplans extractBuildingFloorplans(const std::vector<WallPoint>& point
     if (pass == 0) result.levels = findLevels(evidence);
     while (true) {
       result.blocks = labelCells(result.plan, evidence, result.levels, level_points, energy);
+      divideTransitions(result.plan, evidence, energy.gap, face_cost, result.blocks);
       pruneOutlines(result.plan, energy.gap, face_cost, result.blocks);
       if (explainedArea(result.plan, result.blocks) > kMinExplained * wall_area ||
           energy.gap < kLeastGap) {

@@ -10,26 +10,6 @@ namespace {
 
 constexpr double kForbidden = 10.0;  // of the sum of all costs: more than anything else is worth
 
-// What the walls say about the layer between two bins.
-CellTerms wallTerms(const LineArrangement& plan, const WallEvidence& evidence, std::size_t first,
-                    std::size_t last) {
-  CellTerms terms;
-  const std::size_t n = plan.edges.size();
-  terms.area.resize(n);
-  terms.signed_area.assign(n, 0.0);
-  terms.unary.assign(plan.cells.size(), 0.0);
-  const double height = evidence.bin * static_cast<double>(last - first);
-  for (std::size_t e = 0; e < n; ++e) {
-    terms.area[e] = plan.edges[e].length() * height;
-    double& seen = terms.signed_area[e];
-    for (std::size_t b = first; b < last; ++b) {
-      seen += static_cast<double>(evidence.seen[e * evidence.num_bins + b]);
-    }
-    seen = std::clamp(seen, -terms.area[e], terms.area[e]);  // sums are rounded
-  }
-  return terms;
-}
-
 bool holds(const PlanCell& cell, const Eigen::Vector2d& p) {
   const std::size_t n = cell.corners.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -111,6 +91,25 @@ void CellTerms::add(const CellTerms& other) {
   for (std::size_t c = 0; c < unary.size(); ++c) unary[c] += other.unary[c];
 }
 
+CellTerms termsOfBins(const LineArrangement& plan, const WallEvidence& evidence, std::size_t first,
+                      std::size_t last) {
+  CellTerms terms;
+  const std::size_t n = plan.edges.size();
+  terms.area.resize(n);
+  terms.signed_area.assign(n, 0.0);
+  terms.unary.assign(plan.cells.size(), 0.0);
+  const double height = evidence.bin * static_cast<double>(last - first);
+  for (std::size_t e = 0; e < n; ++e) {
+    terms.area[e] = plan.edges[e].length() * height;
+    double& seen = terms.signed_area[e];
+    for (std::size_t b = first; b < last; ++b) {
+      seen += static_cast<double>(evidence.seen[e * evidence.num_bins + b]);
+    }
+    seen = std::clamp(seen, -terms.area[e], terms.area[e]);  // sums are rounded
+  }
+  return terms;
+}
+
 std::vector<CellTerms> termsOfLayers(const LineArrangement& plan, const WallEvidence& evidence,
                                      const std::vector<std::size_t>& levels,
                                      const std::vector<LevelPoint>& level_points,
@@ -118,7 +117,7 @@ std::vector<CellTerms> termsOfLayers(const LineArrangement& plan, const WallEvid
   const auto by_cell = pointsByCell(plan, level_points);
   std::vector<CellTerms> layers;
   for (std::size_t l = 0; l + 1 < levels.size(); ++l) {
-    layers.push_back(wallTerms(plan, evidence, levels[l], levels[l + 1]));
+    layers.push_back(termsOfBins(plan, evidence, levels[l], levels[l + 1]));
     addLevelTerms(plan, by_cell, evidence.heightOf(levels[l]), evidence.heightOf(levels[l + 1]),
                   level_weight, layers.back());
   }
@@ -154,17 +153,22 @@ double minimumCut(const LineArrangement& plan, const CellTerms& terms, double ga
   }
   flow.solve();
   inside.resize(n);
+  for (std::size_t c = 0; c < n; ++c) inside[c] = flow.inSourceSide(c) ? 1 : 0;
+  return energyOf(plan, terms, gap, inside);
+}
+
+double energyOf(const LineArrangement& plan, const CellTerms& terms, double gap,
+                const std::vector<char>& inside) {
   double energy = 0.0;
-  for (std::size_t c = 0; c < n; ++c) {
-    inside[c] = flow.inSourceSide(c) ? 1 : 0;
-    if (inside[c] != 0) energy += unary[c];
+  for (std::size_t c = 0; c < plan.cells.size(); ++c) {
+    if (inside[c] != 0) energy += terms.unary[c];
   }
   for (std::size_t e = 0; e < plan.edges.size(); ++e) {
-    const PlanEdge& edge = plan.edges[e];
-    if (inside[static_cast<std::size_t>(edge.behind)] !=
-        inside[static_cast<std::size_t>(edge.ahead)]) {
-      energy += gap * (terms.area[e] - std::abs(terms.signed_area[e]));
-    }
+    const int ahead = inside[static_cast<std::size_t>(plan.edges[e].ahead)];
+    const int behind = inside[static_cast<std::size_t>(plan.edges[e].behind)];
+    if (ahead == behind) continue;
+    energy += terms.signed_area[e] * (ahead - behind) +
+              gap * (terms.area[e] - std::abs(terms.signed_area[e]));
   }
   return energy;
 }

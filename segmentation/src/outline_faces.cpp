@@ -7,7 +7,8 @@
 namespace storey::detail {
 namespace {
 
-constexpr double kTouching = 1e-6;  // of the length of an edge
+constexpr double kFloatingFaces = 8.0;  // that a part in the air costs beyond its own
+constexpr double kTouching = 1e-6;      // of the length of an edge
 
 // +1 if the inside is behind the line, -1 if it is ahead, 0 if the edge is no boundary.
 int sideOf(const PlanEdge& edge, const std::vector<char>& inside) {
@@ -31,30 +32,55 @@ std::size_t countContinued(const std::vector<OutlineRun>& lower,
   return continued;
 }
 
+// The connected parts of the cells with equal marks.
+class Parts {
+ public:
+  Parts(const LineArrangement& plan, const std::vector<int>& marks) : root_(marks.size()) {
+    std::iota(root_.begin(), root_.end(), std::size_t{0});
+    for (const PlanEdge& edge : plan.edges) {
+      const auto a = static_cast<std::size_t>(edge.behind);
+      const auto b = static_cast<std::size_t>(edge.ahead);
+      if (marks[a] != 0 && marks[a] == marks[b]) root_[of(b)] = of(a);
+    }
+  }
+
+  /// One cell of the part stands for it.
+  std::size_t of(std::size_t cell) {
+    while (root_[cell] != cell) cell = root_[cell] = root_[root_[cell]];
+    return cell;
+  }
+
+ private:
+  std::vector<std::size_t> root_;
+};
+
 // Connected parts of the cells that one block has inside and the other has not, either way.
 // \param lower, upper null: there is no block
 std::size_t countCaps(const LineArrangement& plan, const std::vector<char>* lower,
                       const std::vector<char>* upper) {
-  const std::size_t n = plan.cells.size();
-  std::vector<int> change(n);
-  for (std::size_t c = 0; c < n; ++c) {
+  std::vector<int> change(plan.cells.size());
+  for (std::size_t c = 0; c < change.size(); ++c) {
     change[c] =
         (lower != nullptr ? int{(*lower)[c]} : 0) - (upper != nullptr ? int{(*upper)[c]} : 0);
   }
-  std::vector<std::size_t> root(n);
-  std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto find = [&](std::size_t c) {
-    while (root[c] != c) c = root[c] = root[root[c]];
-    return c;
-  };
-  for (const PlanEdge& edge : plan.edges) {
-    const auto a = static_cast<std::size_t>(edge.behind);
-    const auto b = static_cast<std::size_t>(edge.ahead);
-    if (change[a] != 0 && change[a] == change[b]) root[find(b)] = find(a);
+  Parts parts(plan, change);
+  std::size_t count = 0;
+  for (std::size_t c = 0; c < change.size(); ++c) count += change[c] != 0 && parts.of(c) == c;
+  return count;
+}
+
+std::size_t countFloating(const LineArrangement& plan, const std::vector<char>& lower,
+                          const std::vector<char>& upper) {
+  Parts parts(plan, {upper.begin(), upper.end()});
+  std::vector<char> rests(upper.size(), 0);
+  for (std::size_t c = 0; c < upper.size(); ++c) {
+    if (upper[c] != 0 && lower[c] != 0) rests[parts.of(c)] = 1;
   }
-  std::size_t parts = 0;
-  for (std::size_t c = 0; c < n; ++c) parts += change[c] != 0 && root[c] == c ? 1 : 0;
-  return parts;
+  std::size_t count = 0;
+  for (std::size_t c = 0; c < upper.size(); ++c) {
+    count += upper[c] != 0 && parts.of(c) == c && rests[c] == 0;
+  }
+  return count;
 }
 
 }  // namespace
@@ -86,6 +112,19 @@ std::size_t countFaces(const LineArrangement& plan, const std::vector<BlockOutli
   }
   if (!blocks.empty()) faces += countCaps(plan, blocks.back().inside, nullptr);
   return faces;
+}
+
+std::size_t countFloating(const LineArrangement& plan, const std::vector<BlockOutline>& blocks) {
+  std::size_t floating = 0;
+  for (std::size_t b = 1; b < blocks.size(); ++b) {
+    floating += countFloating(plan, *blocks[b - 1].inside, *blocks[b].inside);
+  }
+  return floating;
+}
+
+double complexityOf(const LineArrangement& plan, const std::vector<BlockOutline>& blocks) {
+  return static_cast<double>(countFaces(plan, blocks)) +
+         kFloatingFaces * static_cast<double>(countFloating(plan, blocks));
 }
 
 }  // namespace storey::detail

@@ -100,13 +100,39 @@ class Pruning {
     for (const OutlineRun& run : runs) {
       if (run.seen > kTriedUpTo * cost_) return false;
       if (!outlines_[b].tried.emplace(run.first, run.last).second) continue;
-      Outline trial = outlines_[b];
-      std::fill(trial.tied.begin() + static_cast<std::ptrdiff_t>(run.first),
-                trial.tied.begin() + static_cast<std::ptrdiff_t>(run.last) + 1, char{1});
-      cut(trial);
-      if (acceptIfLower({{b, std::move(trial)}})) return true;
+      if (acceptIfLower({{b, cutWithout(b, run)}})) return true;
+      Trials face = cutWithoutFace(b, run);
+      if (face.size() > 1 && acceptIfLower(std::move(face))) return true;
     }
     return false;
+  }
+
+  Outline cutWithout(std::size_t b, const OutlineRun& run) const {
+    Outline trial = outlines_[b];
+    std::fill(trial.tied.begin() + static_cast<std::ptrdiff_t>(run.first),
+              trial.tied.begin() + static_cast<std::ptrdiff_t>(run.last) + 1, char{1});
+    cut(trial);
+    return trial;
+  }
+
+  // Without the run and those that continue it in the blocks above and below.
+  Trials cutWithoutFace(std::size_t b, const OutlineRun& run) const {
+    Trials trials;
+    trials.emplace(b, cutWithout(b, run));
+    for (const int step : {1, -1}) {
+      OutlineRun last = run;
+      for (std::size_t next = b + static_cast<std::size_t>(step); next < outlines_.size();
+           next += static_cast<std::size_t>(step)) {
+        const std::vector<OutlineRun>& runs = outlines_[next].runs;
+        const auto same = std::find_if(runs.begin(), runs.end(), [&](const OutlineRun& other) {
+          return other.side == last.side && other.first <= last.last && last.first <= other.last;
+        });
+        if (same == runs.end()) break;
+        last = *same;
+        trials.emplace(next, cutWithout(next, last));
+      }
+    }
+    return trials;
   }
 
   // The merge of two neighbours that lowers F most, if any does.

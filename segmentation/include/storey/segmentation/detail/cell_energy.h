@@ -25,6 +25,10 @@ struct CellTerms {
   void add(const CellTerms& other);
 };
 
+/// What the walls say about the layer between two bins; nothing in `unary`.
+CellTerms termsOfBins(const LineArrangement& plan, const WallEvidence& evidence, std::size_t first,
+                      std::size_t last);
+
 /// The terms of each layer. \param levels bins of the boundaries, ascending
 /// \param level_weight of the horizontal points
 std::vector<CellTerms> termsOfLayers(const LineArrangement& plan, const WallEvidence& evidence,
@@ -32,16 +36,19 @@ std::vector<CellTerms> termsOfLayers(const LineArrangement& plan, const WallEvid
                                      const std::vector<LevelPoint>& level_points,
                                      double level_weight);
 
-/// The cheapest labelling of the cells, by a minimum cut:
+/// The energy of a labelling:
 ///
 ///     E(x) = sum_e [ a_e (x_ahead - x_behind) + gap (A_e - |a_e|) [x_ahead != x_behind] ]
 ///            + sum_c u_c x_c
 ///
-/// Cells at the border are outside. Of the labellings with the least energy it is the one with the
-/// fewest cells inside.
-/// \param gap cost of a wall where no points are, of its area
-/// \param tied edges that must not separate inside from outside, one an edge; empty: none
-/// \param inside one a cell \return its energy
+/// \param gap cost of a wall where no points are, of its area \param inside one a cell
+double energyOf(const LineArrangement& plan, const CellTerms& terms, double gap,
+                const std::vector<char>& inside);
+
+/// The labelling of least energy, by a minimum cut. Cells at the border are outside. Of the
+/// labellings with the least energy it is the one with the fewest cells inside. \param tied edges
+/// that must not separate inside from outside, one an edge; empty: none \param inside one a cell
+/// \return its energy
 double minimumCut(const LineArrangement& plan, const CellTerms& terms, double gap,
                   const std::vector<char>& tied, std::vector<char>& inside);
 

@@ -31,4 +31,11 @@ struct BlockOutline {
 /// its neighbour does not.
 std::size_t countFaces(const LineArrangement& plan, const std::vector<BlockOutline>& blocks);
 
+/// Number of connected parts of all blocks but the lowest that rest on nothing of the block below.
+std::size_t countFloating(const LineArrangement& plan, const std::vector<BlockOutline>& blocks);
+
+/// What a stack of outlines costs to describe, in faces: `countFaces`, and more for each part that
+/// floats, which no building has.
+double complexityOf(const LineArrangement& plan, const std::vector<BlockOutline>& blocks);
+
 }  // namespace storey::detail

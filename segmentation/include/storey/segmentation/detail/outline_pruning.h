@@ -10,11 +10,14 @@ namespace storey::detail {
 /// Simplifies the outlines of the blocks: what is in the model must earn what it adds to its
 /// description. Lowers, step by step,
 ///
-///     F = sum_blocks E(x) + cost (faces(x) + lines(x))
+///     F = sum_blocks E(x) + cost (complexity(x) + lines(x))
 ///
-/// where faces(x) is `countFaces` and lines(x) the number of lines that bound any block. A step
-/// - forbids one run of an outline in its block, or one line in all blocks, and cuts again: the new
-///   outline is the best of all that do without it, wherever it then runs;
+/// where complexity(x) is `complexityOf` and lines(x) the number of lines that bound any block. A
+/// step
+/// - forbids one run of an outline in its block, or the runs that continue each other through
+/// several
+///   blocks, or one line in all blocks, and cuts again: the new outline is the best of all that do
+///   without it, wherever it then runs;
 /// - or makes one block of two neighbours.
 /// Runs and lines with little to show are tried first; those that have seen clearly more than the
 /// cost are not tried.
