@@ -50,7 +50,11 @@ po::options_description describe(Options& o) {
       "label-cost", po::value(&o.label_cost)->default_value(1.0),
       "eta2: cost of one more floorplan type, >= 0")(
       "max-types", po::value(&o.max_types)->default_value(0),
-      "method paper: greatest number of floorplan types [0 = no limit]")(
+      "greatest number of floorplan types [0 = no limit]")(
+      "max-faces", po::value(&o.max_faces)->default_value(0),
+      "method building: greatest number of polygons [0 = no limit]")(
+      "trade-off", po::bool_switch(&o.trade_off),
+      "method building: report what simpler models would leave unexplained")(
       "grid", po::value(&o.grid)->default_value(0.0),
       "unit of the model's coordinates, length [0 = about a millionth of the extent]")(
       "encoding", po::value<std::string>()->default_value("walls"),
@@ -145,6 +149,7 @@ bool parseOptions(int argc, char** argv, Options& options) {
   requireNonNegative("smoothness", options.smoothness);
   requireNonNegative("label-cost", options.label_cost);
   requireNonNegative("max-types", options.max_types);
+  requireNonNegative("max-faces", options.max_faces);
   requireNonNegative("grid", options.grid);
   if (!(options.kept_share > 0.0 && options.kept_share <= 1.0)) {
     usageError("--kept-share must be above 0 and at most 1");

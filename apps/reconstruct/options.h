@@ -29,7 +29,9 @@ struct Options {
   double slice_thickness = 0.0;
   double smoothness = 0.1;
   double label_cost = 1.0;
-  int max_types = 0;  ///< of floorplans; 0: no limit
+  int max_types = 0;       ///< of floorplans; 0: no limit
+  int max_faces = 0;       ///< method building: of the model; 0: no limit
+  bool trade_off = false;  ///< method building: report the whole trade-off
   double grid = 0.0;
   FloorplanGrammar::Encoding encoding = FloorplanGrammar::Encoding::Walls;
   detail::LinkingMethod linking = detail::LinkingMethod::Optimal;

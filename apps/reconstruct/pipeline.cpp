@@ -206,6 +206,9 @@ class Pipeline {
     extraction.setNoise(result_.noise);
     extraction.setDensity(result_.scale.density);
     extraction.setBlockCost(options_.block_cost);
+    extraction.setMaxFaces(static_cast<std::size_t>(options_.max_faces));
+    extraction.setMaxTypes(static_cast<std::size_t>(options_.max_types));
+    extraction.setWholeTradeOff(options_.trade_off);
     if (!extraction.extract(result_.blocks)) {
       refuse("the walls enclose no building",
              "is half of it missing, or the vertical wrong (--up)?");

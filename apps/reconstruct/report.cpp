@@ -64,6 +64,7 @@ Json describeParameters(const Options& o) {
           {"smoothness", o.smoothness},
           {"label_cost", o.label_cost},
           {"max_types", o.max_types},
+          {"max_faces", o.max_faces},
           {"encoding", o.encoding == FloorplanGrammar::Encoding::Walls ? "walls" : "turns"},
           {"linking", o.linking == detail::LinkingMethod::Optimal ? "optimal" : "greedy"},
           {"minimization", o.exact ? "exact" : "alpha-expansion"}};
@@ -106,9 +107,18 @@ Json describeBuilding(const Result& r) {
                      {"area", wall.support_area},
                      {"residual", wall.residual}});
   }
+  Json trade_off = Json::array();
+  for (const detail::OutlineTradeOff& point : b.trade_off) {
+    trade_off.push_back({{"faces", point.faces},
+                         {"types", point.types},
+                         {"energy", point.energy},
+                         {"face_cost", point.face_cost}});
+  }
   return {{"hypothetical_lines", b.hypotheses.size()},
           {"cells", b.plan.cells.size()},
           {"layers", b.levels.empty() ? 0 : b.levels.size() - 1},
+          {"gap_cost", b.gap},
+          {"trade_off", trade_off},
           {"wall_lines", walls}};
 }
 

@@ -5,6 +5,7 @@
 #include <storey/segmentation/detail/outline_pruning.h>
 #include <storey/segmentation/detail/transition_blocks.h>
 #include <storey/segmentation/detail/wall_lines.h>
+#include <storey/segmentation/detail/weak_parts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,6 @@ namespace {
 constexpr std::size_t kMaxSamples = 250000;  // points that vote for lines
 constexpr double kMargin = 0.15;             // of the box around the walls
 constexpr double kSameLine = 1.0;            // noise deviations: opposite walls on one line
-constexpr int kPasses = 2;                   // the second with the walls that bound a block alone
 constexpr double kFaceCost = 0.5;            // of the least area of a wall
 constexpr double kBlockFaces = 2.0;          // faces that one more block has at least
 // Where most of a building is missing, closing it costs more than its walls have to show, unless
@@ -90,81 +90,6 @@ std::vector<PlanLine> distinct(const std::vector<PlanLine>& lines, double noise,
   return result;
 }
 
-// Support of a component: area of its walls that points confirm.
-double supportOf(const FloorplanComponent& component) {
-  double seen = 0.0;
-  const auto add = [&](const FloorplanRing& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      if (ring.edges[i].hypothetical) continue;
-      seen += (ring.vertices[(i + 1) % ring.size()] - ring.vertices[i]).norm();
-    }
-  };
-  add(component.outer);
-  for (const FloorplanRing& hole : component.holes) add(hole);
-  return seen;
-}
-
-Eigen::Vector2d innerPoint(const PlanCell& cell) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const Eigen::Vector2d& corner : cell.corners) sum += corner;
-  return sum / static_cast<double>(cell.corners.size());
-}
-
-// Connected parts of the solid (components of different blocks that overlap in plan) with little
-// support beside the best one: neighbours cut by the crop, cars, trees.
-void dropWeakParts(const LineArrangement& plan, double keep, BuildingFloorplans& result) {
-  struct Part {
-    std::size_t layer;
-    std::size_t component;
-    double support;
-  };
-  std::vector<Part> parts;
-  std::vector<std::vector<std::size_t>> cells_of;  // of each part
-  for (std::size_t l = 0; l < result.layers.size(); ++l) {
-    const double height = result.layers[l].z_max - result.layers[l].z_min;
-    for (std::size_t k = 0; k < result.layers[l].plan.components.size(); ++k) {
-      const FloorplanComponent& component = result.layers[l].plan.components[k];
-      parts.push_back({l, k, height * supportOf(component)});
-      std::vector<std::size_t> cells;
-      const Floorplan alone{{component}};
-      for (std::size_t c = 0; c < plan.cells.size(); ++c) {
-        if (contains(alone, innerPoint(plan.cells[c]))) cells.push_back(c);
-      }
-      cells_of.push_back(std::move(cells));
-    }
-  }
-  std::vector<std::size_t> root(parts.size());
-  std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto find = [&](std::size_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    for (std::size_t j = i + 1; j < parts.size(); ++j) {
-      if (parts[j].layer != parts[i].layer + 1) continue;
-      std::vector<std::size_t> shared;
-      std::set_intersection(cells_of[i].begin(), cells_of[i].end(), cells_of[j].begin(),
-                            cells_of[j].end(), std::back_inserter(shared));
-      if (!shared.empty()) root[find(j)] = find(i);
-    }
-  }
-  std::vector<double> support(parts.size(), 0.0);
-  for (std::size_t i = 0; i < parts.size(); ++i) support[find(i)] += parts[i].support;
-  const double best = parts.empty() ? 0.0 : *std::max_element(support.begin(), support.end());
-  std::vector<FloorplanLayer> kept;
-  std::size_t i = 0;
-  for (FloorplanLayer& layer : result.layers) {
-    std::vector<FloorplanComponent> components;
-    for (FloorplanComponent& component : layer.plan.components) {
-      if (support[find(i)] >= keep * best) components.push_back(std::move(component));
-      ++i;
-    }
-    layer.plan.components = std::move(components);
-    if (!layer.plan.empty()) kept.push_back(std::move(layer));
-  }
-  result.layers = std::move(kept);
-}
-
 // Area of the walls seen that bound the blocks.
 double explainedArea(const LineArrangement& plan, const std::vector<CellBlock>& blocks) {
   double area = 0.0;
@@ -173,6 +98,80 @@ double explainedArea(const LineArrangement& plan, const std::vector<CellBlock>& 
   }
   return area;
 }
+
+// The walls of a building, cut into cells and labelled.
+class Labeling {
+ public:
+  Labeling(const std::vector<WallPoint>& points, const std::vector<LevelPoint>& level_points,
+           const WallScale& scale, const BuildingFloorplanOptions& options,
+           BuildingFloorplans& result)
+      : points_(points),
+        level_points_(level_points),
+        scale_(scale),
+        face_cost_(kFaceCost * options.min_wall_area),
+        box_(boxAround(points)),
+        result_(result) {
+    energy_.block = options.block_cost > 0.0 ? options.block_cost : kBlockFaces * face_cost_;
+    for (const WallLine& wall : result.walls) wall_area_ += wall.support_area;
+  }
+
+  /// All lines first, then those alone that bound a block, refitted.
+  void run() {
+    arrange(planLinesOf(result_.walls, result_.hypotheses, scale_.noise));
+    result_.levels = findLevels(evidence_);
+    label();
+    const std::vector<PlanLine> used =
+        distinct(refitUsedLines(result_.plan, evidence_, result_.blocks, points_, scale_.noise),
+                 scale_.noise, box_);
+    if (used.size() < 3) return;
+    arrange(used);
+    label();
+  }
+
+  void simplify(const SimplicityLimits& limits) {
+    result_.trade_off =
+        simplifyOutlines(result_.plan, energy_.gap, face_cost_, limits, result_.blocks);
+  }
+
+  void takeOutlines(double min_area) {
+    for (const CellBlock& block : result_.blocks) {
+      FloorplanLayer layer;
+      layer.z_min = evidence_.heightOf(block.first_bin);
+      layer.z_max = evidence_.heightOf(block.last_bin);
+      layer.plan = outlineOf(result_.plan, block, kCornerTolerance * scale_.noise,
+                             kShortEdge * scale_.noise, min_area);
+      if (!layer.plan.empty()) result_.layers.push_back(std::move(layer));
+    }
+  }
+
+ private:
+  void arrange(const std::vector<PlanLine>& lines) {
+    result_.plan = arrangeLines(lines, box_.low, box_.high, kCornerTolerance * scale_.noise);
+    evidence_ = gatherEvidence(result_.plan, points_, scale_);
+  }
+
+  void label() {
+    while (true) {
+      result_.blocks = labelCells(result_.plan, evidence_, result_.levels, level_points_, energy_);
+      divideTransitions(result_.plan, evidence_, energy_.gap, face_cost_, result_.blocks);
+      pruneOutlines(result_.plan, energy_.gap, face_cost_, result_.blocks);
+      result_.gap = energy_.gap;
+      if (explainedArea(result_.plan, result_.blocks) > kMinExplained * wall_area_) return;
+      if (energy_.gap < kLeastGap) return;
+      energy_.gap *= 0.5;
+    }
+  }
+
+  const std::vector<WallPoint>& points_;
+  const std::vector<LevelPoint>& level_points_;
+  const WallScale& scale_;
+  CellEnergyOptions energy_;
+  double face_cost_;
+  double wall_area_ = 0.0;
+  PlanBox box_;
+  WallEvidence evidence_;
+  BuildingFloorplans& result_;
+};
 
 }  // namespace
 
@@ -189,45 +188,11 @@ BuildingFloorplans extractBuildingFloorplans(const std::vector<WallPoint>& point
   if (result.walls.size() < 2) return result;
   result.hypotheses = hypothesiseLines(result.walls, sample_scale);
 
-  double wall_area = 0.0;
-  for (const WallLine& wall : result.walls) wall_area += wall.support_area;
-  CellEnergyOptions energy;
-  const double face_cost = kFaceCost * options.min_wall_area;
-  energy.block = options.block_cost > 0.0 ? options.block_cost : kBlockFaces * face_cost;
-  const PlanBox box = boxAround(points);
-  const double tolerance = kCornerTolerance * scale.noise;
-  std::vector<PlanLine> lines = planLinesOf(result.walls, result.hypotheses, scale.noise);
-  WallEvidence evidence;
-  for (int pass = 0; pass < kPasses; ++pass) {
-    if (pass > 0) {
-      lines = distinct(refitUsedLines(result.plan, evidence, result.blocks, points, scale.noise),
-                       scale.noise, box);
-      if (lines.size() < 3) break;
-    }
-    result.plan = arrangeLines(lines, box.low, box.high, tolerance);
-    evidence = gatherEvidence(result.plan, points, scale);
-    if (pass == 0) result.levels = findLevels(evidence);
-    while (true) {
-      result.blocks = labelCells(result.plan, evidence, result.levels, level_points, energy);
-      divideTransitions(result.plan, evidence, energy.gap, face_cost, result.blocks);
-      pruneOutlines(result.plan, energy.gap, face_cost, result.blocks);
-      if (explainedArea(result.plan, result.blocks) > kMinExplained * wall_area ||
-          energy.gap < kLeastGap) {
-        break;
-      }
-      energy.gap *= 0.5;
-    }
-  }
-  result.gap = energy.gap;
-  for (const CellBlock& block : result.blocks) {
-    FloorplanLayer layer;
-    layer.z_min = evidence.heightOf(block.first_bin);
-    layer.z_max = evidence.heightOf(block.last_bin);
-    layer.plan =
-        outlineOf(result.plan, block, tolerance, kShortEdge * scale.noise, options.min_area);
-    if (!layer.plan.empty()) result.layers.push_back(std::move(layer));
-  }
-  dropWeakParts(result.plan, options.keep_components, result);
+  Labeling labeling(points, level_points, scale, options, result);
+  labeling.run();
+  labeling.simplify(options.limits);
+  labeling.takeOutlines(options.min_area);
+  dropWeakParts(result.plan, options.keep_components, result.layers);
   return result;
 }
 

@@ -52,10 +52,23 @@ class BuildingFloorplanExtraction : public pcl::PCLBase<PointT> {
   void setMinWallArea(double square_length) { min_wall_area_ = square_length; }
   double getMinWallArea() const { return min_wall_area_; }
 
-  /// K: the wall area that one more block must explain; 0 (default): 500 noise^2 and 1 % of the area
-  /// of all walls found.
+  /// K: the wall area that one more block must explain; 0 (default): the least wall area. Blocks
+  /// that do not earn their faces are merged afterwards (`detail::pruneOutlines`).
   void setBlockCost(double square_length) { block_cost_ = square_length; }
   double getBlockCost() const { return block_cost_; }
+
+  /// Limits of the model's size: its faces (as many as the polygons of the solid, parts that are
+  /// dropped for their weakness included) and its different floorplans; 0 (default): none. Where
+  /// they are exceeded, what a face must explain rises until they are kept.
+  void setMaxFaces(std::size_t max_faces) { limits_.max_faces = max_faces; }
+  std::size_t getMaxFaces() const { return limits_.max_faces; }
+  void setMaxTypes(std::size_t max_types) { limits_.max_types = max_types; }
+  std::size_t getMaxTypes() const { return limits_.max_types; }
+
+  /// Whether the whole trade-off between what is explained and the number of faces is computed
+  /// (`getResult().trade_off`), down to the simplest model; default false.
+  void setWholeTradeOff(bool whole) { limits_.whole_front = whole; }
+  bool getWholeTradeOff() const { return limits_.whole_front; }
 
   /// \param blocks bottom to top, each with its outline
   /// \return false, after a PCL_ERROR, for no input or a bad parameter; false without one if the
@@ -74,6 +87,7 @@ class BuildingFloorplanExtraction : public pcl::PCLBase<PointT> {
   double density_ = 0.0;
   double min_wall_area_ = 0.0;
   double block_cost_ = 0.0;
+  detail::SimplicityLimits limits_;
   detail::BuildingFloorplans result_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <storey/segmentation/detail/cell_labels.h>
+#include <storey/segmentation/detail/outline_trade_off.h>
 #include <storey/segmentation/detail/wall_points.h>
 #include <storey/segmentation/floorplan.h>
 
@@ -10,9 +11,10 @@
 namespace storey::detail {
 
 struct BuildingFloorplanOptions {
-  double min_wall_area = 0.0;    ///< least supported area of a wall, > 0
-  double block_cost = 0.0;       ///< K, wall area that one more block must explain; 0: derived
-  double min_area = 0.0;         ///< of a component or courtyard
+  double min_wall_area = 0.0;  ///< least supported area of a wall, > 0
+  double block_cost = 0.0;     ///< K, wall area that one more block must explain; 0: derived
+  double min_area = 0.0;       ///< of a component or courtyard
+  SimplicityLimits limits;
   double keep_components = 0.1;  ///< components with less of the best supported one's support go
 };
 
@@ -23,6 +25,7 @@ struct BuildingFloorplans {
   std::vector<std::size_t> levels;   ///< bins of the layers
   double gap = 0.0;                  ///< cost of a wall not seen that was worked with
   std::vector<CellBlock> blocks;
+  std::vector<OutlineTradeOff> trade_off;  ///< from the default towards simpler models
   std::vector<FloorplanLayer> layers;  ///< parallel to `blocks` that have an outline, bottom to top
 };
 

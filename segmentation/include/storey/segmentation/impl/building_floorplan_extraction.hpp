@@ -99,6 +99,7 @@ bool BuildingFloorplanExtraction<PointT>::extract(std::vector<FloorplanLayer>& b
                  std::pow(detail::kMinWallSideInExtent * detail::extentOf(walls), 2));
   }
   options.block_cost = block_cost_;
+  options.limits = limits_;
   options.min_area = square(detail::kMinComponentSideInNoise);
   result_ = detail::extractBuildingFloorplans(walls, levels, scale, options);
   blocks = result_.layers;
