@@ -16,43 +16,59 @@ int sideOf(const PlanEdge& edge, const std::vector<char>& inside) {
          int{inside[static_cast<std::size_t>(edge.ahead)]};
 }
 
-// Runs of the upper block that go on what the lower one has begun.
-std::size_t countContinued(const std::vector<OutlineRun>& lower,
-                           const std::vector<OutlineRun>& upper) {
-  std::size_t continued = 0;
-  auto from = lower.begin();  // both are sorted, and runs of one block do not overlap
-  for (const OutlineRun& run : upper) {
-    while (from != lower.end() && from->last < run.first) ++from;
-    bool meets = false;
-    for (auto other = from; other != lower.end() && other->first <= run.last; ++other) {
-      meets = meets || other->side == run.side;
-    }
-    continued += meets ? 1 : 0;
-  }
-  return continued;
-}
-
-// The connected parts of the cells with equal marks.
-class Parts {
+// Sets of numbers from 0 to n - 1 that are joined one by one; one number of each stands for it.
+class DisjointSets {
  public:
-  Parts(const LineArrangement& plan, const std::vector<int>& marks) : root_(marks.size()) {
+  explicit DisjointSets(std::size_t n) : root_(n) {
     std::iota(root_.begin(), root_.end(), std::size_t{0});
-    for (const PlanEdge& edge : plan.edges) {
-      const auto a = static_cast<std::size_t>(edge.behind);
-      const auto b = static_cast<std::size_t>(edge.ahead);
-      if (marks[a] != 0 && marks[a] == marks[b]) root_[of(b)] = of(a);
-    }
   }
-
-  /// One cell of the part stands for it.
-  std::size_t of(std::size_t cell) {
-    while (root_[cell] != cell) cell = root_[cell] = root_[root_[cell]];
-    return cell;
+  void join(std::size_t a, std::size_t b) { root_[of(b)] = of(a); }
+  std::size_t of(std::size_t i) {
+    while (root_[i] != i) i = root_[i] = root_[root_[i]];
+    return i;
+  }
+  std::size_t count() const {
+    std::size_t sets = 0;
+    for (std::size_t i = 0; i < root_.size(); ++i) sets += root_[i] == i ? 1 : 0;
+    return sets;
   }
 
  private:
   std::vector<std::size_t> root_;
 };
+
+// Walls: a run may go on in several runs of the next block, and several in one.
+std::size_t countWalls(const std::vector<BlockOutline>& blocks) {
+  std::size_t num_runs = 0;
+  for (const BlockOutline& block : blocks) num_runs += block.runs->size();
+  DisjointSets walls(num_runs);
+  std::size_t lower_id = 0;  // of the first run of the lower block
+  for (std::size_t b = 1; b < blocks.size(); ++b) {
+    const std::vector<OutlineRun>& lower = *blocks[b - 1].runs;
+    const std::vector<OutlineRun>& upper = *blocks[b].runs;
+    const std::size_t upper_id = lower_id + lower.size();
+    std::size_t from = 0;  // both are sorted, and runs of one block do not overlap
+    for (std::size_t u = 0; u < upper.size(); ++u) {
+      while (from < lower.size() && lower[from].last < upper[u].first) ++from;
+      for (std::size_t l = from; l < lower.size() && lower[l].first <= upper[u].last; ++l) {
+        if (lower[l].side == upper[u].side) walls.join(lower_id + l, upper_id + u);
+      }
+    }
+    lower_id = upper_id;
+  }
+  return walls.count();
+}
+
+// The connected parts of the cells with equal marks.
+DisjointSets partsOf(const LineArrangement& plan, const std::vector<int>& marks) {
+  DisjointSets parts(marks.size());
+  for (const PlanEdge& edge : plan.edges) {
+    const auto a = static_cast<std::size_t>(edge.behind);
+    const auto b = static_cast<std::size_t>(edge.ahead);
+    if (marks[a] != 0 && marks[a] == marks[b]) parts.join(a, b);
+  }
+  return parts;
+}
 
 // Connected parts of the cells that one block has inside and the other has not, either way.
 // \param lower, upper null: there is no block
@@ -63,7 +79,7 @@ std::size_t countCaps(const LineArrangement& plan, const std::vector<char>* lowe
     change[c] =
         (lower != nullptr ? int{(*lower)[c]} : 0) - (upper != nullptr ? int{(*upper)[c]} : 0);
   }
-  Parts parts(plan, change);
+  DisjointSets parts = partsOf(plan, change);
   std::size_t count = 0;
   for (std::size_t c = 0; c < change.size(); ++c) count += change[c] != 0 && parts.of(c) == c;
   return count;
@@ -71,7 +87,7 @@ std::size_t countCaps(const LineArrangement& plan, const std::vector<char>* lowe
 
 std::size_t countFloating(const LineArrangement& plan, const std::vector<char>& lower,
                           const std::vector<char>& upper) {
-  Parts parts(plan, {upper.begin(), upper.end()});
+  DisjointSets parts = partsOf(plan, {upper.begin(), upper.end()});
   std::vector<char> rests(upper.size(), 0);
   for (std::size_t c = 0; c < upper.size(); ++c) {
     if (upper[c] != 0 && lower[c] != 0) rests[parts.of(c)] = 1;
@@ -104,11 +120,9 @@ std::vector<OutlineRun> runsOf(const LineArrangement& plan, const CellTerms& ter
 }
 
 std::size_t countFaces(const LineArrangement& plan, const std::vector<BlockOutline>& blocks) {
-  std::size_t faces = 0;
+  std::size_t faces = countWalls(blocks);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    faces += blocks[b].runs->size();
     faces += countCaps(plan, b > 0 ? blocks[b - 1].inside : nullptr, blocks[b].inside);
-    if (b > 0) faces -= countContinued(*blocks[b - 1].runs, *blocks[b].runs);
   }
   if (!blocks.empty()) faces += countCaps(plan, blocks.back().inside, nullptr);
   return faces;

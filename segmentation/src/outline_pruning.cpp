@@ -76,14 +76,11 @@ class Pruning {
            cost_ * static_cast<double>(countFaces(plan_, stack) + static_cast<std::size_t>(lines));
   }
 
-  bool acceptIfLower(Trials trials, std::size_t without = SIZE_MAX) {
-    const double objective = objectiveOf(trials, without);
+  bool acceptIfLower(Trials trials) {
+    const double objective = objectiveOf(trials);
     if (objective >= objective_ - kLeastGain * cost_) return false;
     objective_ = objective;
     for (auto& [b, outline] : trials) outlines_[b] = std::move(outline);
-    if (without != SIZE_MAX) {
-      outlines_.erase(outlines_.begin() + static_cast<std::ptrdiff_t>(without));
-    }
     return true;
   }
 
@@ -135,9 +132,10 @@ class Pruning {
     return trials;
   }
 
-  // The merge of two neighbours that lowers F most, if any does.
+  // The merge of two neighbours with the least F, if that is no higher: of equals one block is the
+  // simpler description.
   bool mergeBlocks() {
-    double best = objective_ - kLeastGain * cost_;
+    double best = objective_ + kLeastGain * cost_;
     std::size_t best_lower = SIZE_MAX;
     Outline best_outline;
     for (std::size_t b = 0; b + 1 < outlines_.size(); ++b) {
@@ -157,7 +155,9 @@ class Pruning {
       best_outline = std::move(merged);
     }
     if (best_lower == SIZE_MAX) return false;
-    acceptIfLower({{best_lower, std::move(best_outline)}}, best_lower + 1);
+    objective_ = best;
+    outlines_[best_lower] = std::move(best_outline);
+    outlines_.erase(outlines_.begin() + static_cast<std::ptrdiff_t>(best_lower) + 1);
     dropRuns(best_lower);
     return true;
   }

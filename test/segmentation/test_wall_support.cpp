@@ -168,21 +168,6 @@ TEST(WallSupport, NoLineLeansOverTwoParallelWalls) {
   }
 }
 
-// The guess is two deviations off at the ends of the walls, as good as the kernel asks for.
-TEST(WallSupport, DISABLED_ALineThatLeansOverTwoParallelWallsIsCutToOne) {
-  for (unsigned seed = 1; seed <= 10; ++seed) {
-    const Setback walls(4.0, seed);
-    WallLine line = walls.guess(1.0);
-    const auto support =
-        fitToSupport(walls.points, allOf(walls.points), scaleOf(walls.sampling), {}, line);
-    ASSERT_FALSE(support.empty()) << seed;
-    walls.expectOneWall(support, line);
-    // At the least the stretch over which the lean, `step` deviations a wall, is one deviation.
-    EXPECT_GE(static_cast<double>(support.size()),
-              static_cast<double>(walls.first_size) / walls.step);
-  }
-}
-
 TEST(WallSupport, ALockedLineOverTwoParallelWallsTakesTheLargerOne) {
   // A storey of 2 over one of 4, set back by four deviations.
   WallSampling lower;
@@ -244,6 +229,59 @@ TEST(WallSupport, OutliersAroundAWallDoNotMoveIt) {
     // Tukey's function is below 0.2, so that the mean shifts by less than 0.02 x 0.2 x 3.5 noise.
     const double shift = 0.02 * 0.2 * 3.5 * sampling.noise;
     EXPECT_LE(std::abs(line.across(kFrom + 0.5 * kLength * kAlong)), shift + 5.0 * expected.offset);
+    EXPECT_LE(std::abs(angleError(line, kOut)), 5.0 * expected.angle);
+  }
+}
+
+// A crown: points in a ball about `center`, normals anywhere within the gate of the votes.
+void addCrown(const Eigen::Vector2d& center, double z, double radius, std::size_t count,
+              std::mt19937& random, std::vector<WallPoint>& points) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (std::size_t added = 0; added < count;) {
+    const Eigen::Vector3d p(unit(random), unit(random), unit(random));
+    if (p.norm() > 1.0) continue;
+    points.push_back({center + radius * p.head<2>(), z + radius * p.z(),
+                      Eigen::Rotation2Dd(0.78 * unit(random)) * kOut});
+    ++added;
+  }
+}
+
+TEST(WallSupport, ATreeIsNoWallHoweverDense) {
+  // As dense as a wall where a line crosses it: 40 points per unit of area within two deviations of
+  // it to either side, and as many in any layer beside.
+  const WallSampling sampling;
+  const double radius = 2.0;
+  const double volume = 4.0 / 3.0 * M_PI * std::pow(radius, 3);
+  const auto count = static_cast<std::size_t>(sampling.density / (4.0 * sampling.noise) * volume);
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    std::mt19937 random(seed);
+    std::vector<WallPoint> points;
+    addCrown(kFrom, 4.0, radius, count, random, points);
+    for (const bool fit_direction : {true, false}) {
+      WallLine line = lineOf(kOut, kFrom);
+      const auto support =
+          fitToSupport(points, allOf(points), scaleOf(sampling), {fit_direction}, line);
+      EXPECT_TRUE(support.empty()) << seed;
+    }
+  }
+}
+
+TEST(WallSupport, ATreeThatTouchesAWallDoesNotHideIt) {
+  // A crown in front of the wall, as many points as a tenth of it, that just reaches it: of a ball
+  // the share 3 h^2 / 4 r^2 is nearer than h to its end, at 6 deviations and a radius of 1.5 less
+  // than 0.03. With 0.003 of the points at the most 6 deviations off the line moves by 0.018.
+  const WallSampling sampling;
+  const LineDeviation expected = deviationOf(kLength, sampling);
+  const double radius = 1.5;
+  const Eigen::Vector2d middle = kFrom + 0.5 * kLength * kAlong;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    std::mt19937 random(seed);
+    std::vector<WallPoint> points;
+    addWall(kFrom, kFrom + kLength * kAlong, sampling, random, points);
+    addCrown(middle + radius * kOut, 2.0, radius, points.size() / 10, random, points);
+    WallLine line = guessOf(sampling, random);
+    ASSERT_FALSE(fitToSupport(points, allOf(points), scaleOf(sampling), {}, line).empty()) << seed;
+    EXPECT_LE(std::abs(line.across(middle)), 0.018 * sampling.noise + 5.0 * expected.offset);
     EXPECT_LE(std::abs(angleError(line, kOut)), 5.0 * expected.angle);
   }
 }

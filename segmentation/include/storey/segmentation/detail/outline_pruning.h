@@ -15,10 +15,9 @@ namespace storey::detail {
 /// where complexity(x) is `complexityOf` and lines(x) the number of lines that bound any block. A
 /// step
 /// - forbids one run of an outline in its block, or the runs that continue each other through
-/// several
-///   blocks, or one line in all blocks, and cuts again: the new outline is the best of all that do
-///   without it, wherever it then runs;
-/// - or makes one block of two neighbours.
+///   several blocks, or one line in all blocks, and cuts again: the new outline is the best of all
+///   that do without it, wherever it then runs;
+/// - or makes one block of two neighbours, also where F stays as it is.
 /// Runs and lines with little to show are tried first; those that have seen clearly more than the
 /// cost are not tried.
 /// \param gap as in `CellEnergyOptions` \param cost in units of wall area

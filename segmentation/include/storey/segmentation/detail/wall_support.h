@@ -12,8 +12,14 @@ struct SupportOptions {
 };
 
 /// Finds what supports a line among `candidates` (indices into `points`, all of them free and with
-/// a fitting normal), fits the line to it robustly, and repeats until it settles. A line that
-/// leans over two walls is cut down to the longest stretch where the points lie flat on it.
+/// a fitting normal), fits the line to it robustly, and repeats until it settles. The support is of
+/// one flat wall: what lies near the line but is of walls that it crosses, of parallel ones or of
+/// others further on is cut off. There is none if
+/// - no cells are filled well enough,
+/// - nearly all of it turns against the line, so that it leans over two walls or passes through
+///   clutter: such a line is refused rather than turned, for walls have better guesses of their own,
+/// - the direction is locked and much of it is not flat along it, or
+/// - the points fill the space beside the line about as densely as they do the line: a tree.
 /// \param line a first guess, good to about two deviations of noise; refined in place
 /// \return the supporting points, ascending; empty if there is no support
 std::vector<int> fitToSupport(const std::vector<WallPoint>& points,

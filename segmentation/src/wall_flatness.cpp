@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/wall_flatness.h>
+#include <storey/segmentation/detail/wall_support.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace storey::detail {
+namespace {
+
+constexpr double kLeanDeviations = 4.0;  // of the slope of a run against the line
+constexpr double kLean = 1.0;            // noise deviations, over the length of the run
+constexpr double kFlat = 0.6;            // noise deviations that a part of a wall may be off
+constexpr double kDeviations = 3.0;      // of a mean: what its noise explains
+constexpr double kMaxOffShare = 0.15;    // of the points of a flat stretch
+constexpr std::size_t kBins = 24;        // along the wall
+
+// Sums for the line d(s) of least squares.
+struct Moments {
+  double n = 0.0, s = 0.0, d = 0.0, ss = 0.0, sd = 0.0;
+
+  void add(double along, double across) {
+    add({1.0, along, across, along * along, along * across});
+  }
+  void add(const Moments& m) { n += m.n, s += m.s, d += m.d, ss += m.ss, sd += m.sd; }
+  double spread() const { return n > 0.0 ? ss - s * s / n : 0.0; }
+  double slope() const { return (sd - s * d / n) / spread(); }  // spread() > 0
+};
+
+std::pair<double, double> endsAlong(const std::vector<WallPoint>& points,
+                                    const std::vector<int>& support, const WallLine& line) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const int i : support) {
+    const double s = line.along(points[static_cast<std::size_t>(i)].position);
+    low = std::min(low, s);
+    high = std::max(high, s);
+  }
+  return {low, high};
+}
+
+// A support, not empty, in bins of equal width along the line.
+class Profile {
+ public:
+  Profile(const std::vector<WallPoint>& points, const std::vector<int>& support,
+          const WallLine& line)
+      : support_(support) {
+    const auto [low, high] = endsAlong(points, support, line);
+    const double step = std::max((high - low) / kBins, std::numeric_limits<double>::min());
+    for (const int i : support) {
+      const Eigen::Vector2d& p = points[static_cast<std::size_t>(i)].position;
+      const double s = line.along(p) - low;
+      bin_of_.push_back(std::min(static_cast<std::size_t>(s / step), kBins - 1));
+      bins_[bin_of_.back()].add(s, line.across(p));
+    }
+  }
+
+  const Moments& operator[](std::size_t bin) const { return bins_[bin]; }
+
+  Moments sumOf(std::size_t first, std::size_t last) const {
+    Moments sum;
+    for (std::size_t b = first; b < last; ++b) sum.add(bins_[b]);
+    return sum;
+  }
+
+  // Whether few points lie where the mean is off the level of the stretch.
+  bool isFlat(std::size_t first, std::size_t last, double noise) const {
+    const Moments all = sumOf(first, last);
+    double off = 0.0;
+    for (std::size_t b = first; b < last; ++b) {
+      const Moments& bin = bins_[b];
+      if (bin.n < 1.0) continue;
+      const double away = std::abs(bin.d / bin.n - all.d / all.n);
+      if (away > noise * (kFlat + kDeviations / std::sqrt(bin.n))) off += bin.n;
+    }
+    return all.n > 0.0 && off <= kMaxOffShare * all.n;
+  }
+
+  template <typename Predicate>
+  std::vector<int> pointsWhere(const Predicate& keeps) const {
+    std::vector<int> kept;
+    for (std::size_t k = 0; k < support_.size(); ++k) {
+      if (keeps(bin_of_[k])) kept.push_back(support_[k]);
+    }
+    return kept;
+  }
+
+ private:
+  const std::vector<int>& support_;
+  std::vector<std::size_t> bin_of_;  // parallel to the support
+  std::array<Moments, kBins> bins_;
+};
+
+bool leans(const Moments& run, double length, double noise) {
+  const double spread = run.spread();
+  if (!(spread > 0.0)) return false;
+  const double slope = std::abs(run.slope());
+  return slope > kLeanDeviations * noise / std::sqrt(spread) && slope * length > kLean * noise;
+}
+
+}  // namespace
+
+std::vector<std::pair<double, double>> runsAlong(const std::vector<WallPoint>& points,
+                                                 const std::vector<int>& support,
+                                                 const WallScale& scale, const WallLine& line) {
+  if (support.empty()) return {};
+  const auto [low, high] = endsAlong(points, support, line);
+  const double side = supportCellSize(scale);
+  std::vector<char> seen(static_cast<std::size_t>((high - low) / side) + 1, 0);
+  for (const int i : support) {
+    const double s = line.along(points[static_cast<std::size_t>(i)].position);
+    seen[static_cast<std::size_t>((s - low) / side)] = 1;
+  }
+  std::vector<std::pair<double, double>> runs;
+  for (std::size_t c = 0; c < seen.size(); ++c) {
+    if (seen[c] == 0) continue;
+    const double left = low + side * static_cast<double>(c);
+    if (c == 0 || seen[c - 1] == 0) runs.emplace_back(left, left);
+    runs.back().second = c + 1 < seen.size() ? left + side : high;
+  }
+  return runs;
+}
+
+std::vector<int> withoutLeaningRuns(const std::vector<WallPoint>& points,
+                                    const std::vector<int>& support, const WallScale& scale,
+                                    const WallLine& line) {
+  const auto runs = runsAlong(points, support, scale, line);
+  std::vector<std::size_t> run_of;  // parallel to the support
+  std::vector<Moments> moments(runs.size());
+  for (const int i : support) {
+    const Eigen::Vector2d& p = points[static_cast<std::size_t>(i)].position;
+    const double s = line.along(p);
+    std::size_t r = 0;
+    while (r + 1 < runs.size() && s > runs[r].second) ++r;
+    run_of.push_back(r);
+    moments[r].add(s - runs[r].first, line.across(p));
+  }
+  std::vector<int> kept;
+  for (std::size_t k = 0; k < support.size(); ++k) {
+    const std::size_t r = run_of[k];
+    const double length = runs[r].second - runs[r].first;
+    if (!leans(moments[r], length, scale.noise)) kept.push_back(support[k]);
+  }
+  return kept;
+}
+
+std::vector<int> alongMainHalf(const std::vector<WallPoint>& points,
+                               const std::vector<int>& support, const WallScale& scale,
+                               const WallLine& line) {
+  if (support.empty()) return {};
+  const Profile profile(points, support, line);
+  Moments main;
+  for (std::size_t first = 0; 2 * first <= kBins; ++first) {
+    const Moments half = profile.sumOf(first, first + kBins / 2);
+    if (half.n > main.n) main = half;
+  }
+  const double spread = main.spread();
+  if (!(spread > 0.0)) return support;
+  return profile.pointsWhere([&](std::size_t b) {
+    const Moments& bin = profile[b];
+    const double lever = bin.s / bin.n - main.s / main.n;
+    const double off = std::abs(bin.d / bin.n - main.d / main.n - main.slope() * lever);
+    const double variance = 1.0 / bin.n + 1.0 / main.n + lever * lever / spread;
+    return off <= scale.noise * (kFlat + kDeviations * std::sqrt(variance));
+  });
+}
+
+std::vector<int> flatStretch(const std::vector<WallPoint>& points, const std::vector<int>& support,
+                             const WallScale& scale, const WallLine& line) {
+  if (support.empty()) return {};
+  const Profile profile(points, support, line);
+  for (const std::size_t parts : {1, 2, 3, 4, 6, 8, 12}) {
+    const std::size_t width = kBins / parts;
+    double most = 0.0;
+    std::size_t best = 0;
+    for (std::size_t first = 0; first + width <= kBins; ++first) {
+      const double held = profile.sumOf(first, first + width).n;
+      if (held <= most || !profile.isFlat(first, first + width, scale.noise)) continue;
+      most = held;
+      best = first;
+    }
+    if (most > 0.0) {
+      return profile.pointsWhere([&](std::size_t b) { return b >= best && b < best + width; });
+    }
+  }
+  return {};
+}
+
+}  // namespace storey::detail
