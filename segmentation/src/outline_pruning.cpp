@@ -72,8 +72,7 @@ class Pruning {
       }
     }
     const auto lines = std::count(used.begin(), used.end(), 1);
-    return energy +
-           cost_ * static_cast<double>(countFaces(plan_, stack) + static_cast<std::size_t>(lines));
+    return energy + cost_ * (complexityOf(plan_, stack) + static_cast<double>(lines));
   }
 
   bool acceptIfLower(Trials trials) {

@@ -72,7 +72,7 @@ double objectiveOf(const LineArrangement& plan, double cost, const std::vector<C
   }
   std::vector<BlockOutline> stack;
   for (std::size_t b = 0; b < blocks.size(); ++b) stack.push_back({&blocks[b].inside, &runs[b]});
-  return energy + cost * static_cast<double>(countFaces(plan, stack) + lines.size());
+  return energy + cost * (complexityOf(plan, stack) + static_cast<double>(lines.size()));
 }
 
 // The least energy of all labelings that are bounded by some of the edges that bound this one.
