@@ -37,6 +37,8 @@ struct Wall {
 
   Eigen::Vector2d tangent() const { return {-normal.y(), normal.x()}; }
   double spread() const { return ss - s * s / w; }  // of the points along the wall
+  // Of the middle of the points. The relief counts the panes beyond the gate, the moments do not.
+  double across(double noise) const { return relief.in_use ? relief.offset * noise : d / w; }
   double residual(double slope) const {
     const double mean = d / w;
     const double variance = (dd - d * mean - slope * (sd - s * mean)) / w;
@@ -141,7 +143,7 @@ std::map<int, WallFit> solve(Walls& walls, double noise) {
       if (fit.angle_deviation > kMaxAngleDeviation && !contradicts) slope = 0.0;
       fit.residual = wall.relief.in_use ? wall.relief.deviation * noise : wall.residual(slope);
       const Eigen::Vector2d centre =
-          wall.reference + (wall.s / wall.w) * wall.tangent() + (wall.d / wall.w) * wall.normal;
+          wall.reference + (wall.s / wall.w) * wall.tangent() + wall.across(noise) * wall.normal;
       fit.normal = (wall.normal - slope * wall.tangent()).normalized();
       fit.offset = fit.normal.dot(centre);
       fit.centre = centre;

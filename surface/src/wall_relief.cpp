@@ -213,6 +213,7 @@ WallRelief::Expected WallRelief::expected(double residual) const {
 }
 
 std::vector<WallRelief> fitRelief(const std::vector<ResidualHistogram>& walls) {
+  if (walls.empty()) return {};
   std::vector<WallRelief> alone(walls.size());
   std::vector<double> likelihoods;
   for (std::size_t k = 0; k < walls.size(); ++k) {

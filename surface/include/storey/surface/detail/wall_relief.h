@@ -49,9 +49,10 @@ struct WallRelief {
   Expected expected(double residual) const;
 };
 
-/// Fits all walls of a building at once by maximum likelihood: depth and deviation are common to
-/// all, offset, share and background are each wall's own. \return parallel to `walls`; empty if
-/// two modes do not describe the building decisively better than one normal a wall
+/// Fits all walls of a building, each with points, at once by maximum likelihood: depth and
+/// deviation are common to all, offset, share and background are each wall's own. \return parallel
+/// to `walls`; empty if two modes do not describe the building decisively better than one normal a
+/// wall
 std::vector<WallRelief> fitRelief(const std::vector<ResidualHistogram>& walls);
 
 }  // namespace storey::detail
