@@ -15,7 +15,9 @@ constexpr double kGate = 4.0;       // noise deviations across the neighbor
 constexpr double kReach = 30.0;     // noise deviations along it that give its density
 constexpr double kMaxShift = 15.0;  // noise deviations: a hypothesis is not further off
 constexpr double kSameSense = 0.7;  // cosine of 45 degrees, of normals
-constexpr double kClearTurn = 3.5;  // deviations: ends of neighbors that contradict the direction
+// Deviations: ends of neighbors that contradict the direction. It is mostly one that other walls
+// have, and what hides an end in part moves it by more than chance does.
+constexpr double kClearTurn = 8.0;
 
 // Points of a wall and the area they would cover.
 double densityOf(const WallFit& fit, double area) {
