@@ -41,6 +41,15 @@ std::vector<HeightFit> applyLevels(std::vector<FloorplanLayer>& layers,
   return kept_levels;
 }
 
+std::vector<HeightFit> fitLevels(const std::vector<detail::LevelEvidence>& evidence,
+                                 const FitOptions& options, double tails) {
+  std::vector<HeightFit> levels;
+  for (const detail::LevelEvidence& level : evidence) {
+    levels.push_back(detail::fitLevel(level, options.noise, options.max_shift, tails));
+  }
+  return levels;
+}
+
 }  // namespace
 
 std::vector<HeightFit> fitHeights(std::vector<FloorplanLayer>& layers, const FitPoints& points,
@@ -51,12 +60,13 @@ std::vector<HeightFit> fitHeights(std::vector<FloorplanLayer>& layers, const Fit
     return {};
   }
   if (layers.empty()) return {};
-  std::vector<HeightFit> levels;
-  for (const detail::LevelEvidence& level : detail::collectLevelEvidence(layers, points, options)) {
-    levels.push_back(detail::fitLevel(level, options.noise, options.max_shift));
-    if (levels.size() > 1) {
-      levels.back().z = std::max(levels.back().z, levels[levels.size() - 2].z);
-    }
+  const std::vector<detail::LevelEvidence> evidence =
+      detail::collectLevelEvidence(layers, points, options);
+  std::vector<HeightFit> levels = fitLevels(evidence, options, 0.0);
+  const double tails = detail::tailsOf(evidence, levels, options.noise);
+  if (tails > 0.0) levels = fitLevels(evidence, options, tails);
+  for (std::size_t k = 1; k < levels.size(); ++k) {
+    levels[k].z = std::max(levels[k].z, levels[k - 1].z);
   }
   return applyLevels(layers, std::move(levels), kMinLayer * options.noise);
 }

@@ -51,6 +51,7 @@ void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, Layer
   setUpright(result.upright, points);
   result.walls = fitWalls(layers, points, fit);  // now each point in the layer that it is of
   fit.noise = noiseOfWalls(result.walls, options.noise);
+  fitUnseenWalls(layers, points, fit.noise, result.walls);
   fit.max_shift = 0.5 * options.slice_thickness;
   result.levels = fitHeights(layers, points, fit);
   result.model = extrudeFloorplans(layers, options.grid);

@@ -13,38 +13,90 @@ constexpr double kStrayCap = 0.1;       // share of the points that lie elsewher
 constexpr double kClear = 10.0;         // log-likelihood: a level that is really there
 constexpr double kBlur = 3.0;           // noise deviations: within, before and beyond mix
 constexpr double kReach = 8.0;          // noise deviations: beyond, a step is 0 or 1
+constexpr double kTailFactor = 5.0;  // noise of the points of heavy tails over that of the others
+constexpr double kTailReach = 15.0;  // noise deviations that they reach
+constexpr double kClearRise = 4.0;   // deviations: a density that really changes with height
+constexpr double kClearTails = 4.0;  // deviations: tails that are really there
+constexpr double kMaxTails = 0.3;
 constexpr double kInvSqrt2Pi = 0.3989422804014327;
 
-double stepAt(double u) { return 0.5 * std::erfc(-u * M_SQRT1_2); }
+double normalStep(double u) { return 0.5 * std::erfc(-u * M_SQRT1_2); }
 double bellAt(double u) { return kInvSqrt2Pi * std::exp(-0.5 * u * u); }
 
-// The integral of ((1 - stray) phi)^2 / ((1 - stray) Phi + stray): 0.9032 without strays.
-double stepInformation(double stray) {
+// The integral of the step's tail beyond u.
+double beyondStep(double u) { return bellAt(u) - u * normalStep(-u); }
+
+// A step as the noise shows it, u in noise deviations.
+struct BlurredStep {
+  double noise = 0.0;
+  double tails = 0.0;  // share of the points that err kTailFactor times as much
+
+  double reach() const { return tails > 0.0 ? kTailReach : kReach; }
+  double at(double u) const {
+    if (tails == 0.0) return normalStep(u);
+    return (1.0 - tails) * normalStep(u) + tails * normalStep(u / kTailFactor);
+  }
+  double slopeAt(double u) const {
+    if (tails == 0.0) return bellAt(u);
+    return (1.0 - tails) * bellAt(u) + tails * bellAt(u / kTailFactor) / kTailFactor;
+  }
+  // Points of the tails between two distances beyond the step, for a density of 1.
+  double tailsBetween(double from, double to) const {
+    const double scale = kTailFactor * noise;
+    return tails * scale * (beyondStep(from / scale) - beyondStep(to / scale));
+  }
+};
+
+// The integral of ((1 - stray) S')^2 / ((1 - stray) S + stray): 0.9032 without strays and tails.
+double stepInformation(const BlurredStep& step, double stray) {
   constexpr double kWidth = 0.05;
   double sum = 0.0;
-  for (double u = -kReach; u <= kReach; u += kWidth) {
-    const double slope = (1.0 - stray) * bellAt(u);
-    sum += slope * slope / ((1.0 - stray) * stepAt(u) + stray) * kWidth;
+  for (double u = -step.reach(); u <= step.reach(); u += kWidth) {
+    const double slope = (1.0 - stray) * step.slopeAt(u);
+    sum += slope * slope / ((1.0 - stray) * step.at(u) + stray) * kWidth;
   }
   return sum;
 }
 
+double count(std::vector<double>::const_iterator from, std::vector<double>::const_iterator to) {
+  return static_cast<double>(to - from);
+}
+
+// Points beyond a step, without the strays; their variance; how many there were if all had tails.
+struct TailCount {
+  double excess = 0.0;
+  double variance = 0.0;
+  double possible = 0.0;
+
+  TailCount& operator+=(const TailCount& other) {
+    excess += other.excess;
+    variance += other.variance;
+    possible += other.possible;
+    return *this;
+  }
+};
+
 // Heights of points of walls that end at one level. Those of walls that start there come mirrored.
 class StepLikelihood {
  public:
-  StepLikelihood(std::vector<double> heights, double low, double high, double noise)
-      : heights_(std::move(heights)), low_(low), high_(high), noise_(noise) {}
+  // The level lies between `from` and the top of the window.
+  StepLikelihood(std::vector<double> heights, double low, double high, double from,
+                 const BlurredStep& step)
+      : heights_(std::move(heights)), low_(low), high_(high), step_(step) {
+    rise_ = riseUpTo(from - kBlur * step.noise);
+  }
 
   double at(double z) const {
     if (heights_.empty()) return 0.0;
     const double stray = strayAt(z);
-    const auto first = std::lower_bound(heights_.begin(), heights_.end(), z - kReach * noise_);
-    const auto last = std::upper_bound(first, heights_.end(), z + kReach * noise_);
-    double sum =
-        count(heights_.begin(), heights_.end()) * std::log((high_ - low_) / length(z, stray)) +
-        count(last, heights_.end()) * std::log(stray);
+    const double reach = step_.reach() * step_.noise;
+    const auto first = std::lower_bound(heights_.begin(), heights_.end(), z - reach);
+    const auto last = std::upper_bound(first, heights_.end(), z + reach);
+    double sum = count(heights_.begin(), heights_.end()) *
+                     std::log(lengthOf(low_, high_) / lengthSeen(z, stray)) +
+                 count(last, heights_.end()) * std::log(stray);
     for (auto zi = first; zi != last; ++zi) {
-      sum += std::log((1.0 - stray) * stepAt((z - *zi) / noise_) + stray);
+      sum += std::log((1.0 - stray) * step_.at((z - *zi) / step_.noise) + stray);
     }
     return sum;
   }
@@ -53,39 +105,79 @@ class StepLikelihood {
   double information(double z) const {
     if (heights_.empty()) return 0.0;
     const double stray = strayAt(z);
-    const double seen = length(z, stray);
-    const double density = count(heights_.begin(), heights_.end()) / seen;
+    const double seen = lengthSeen(z, stray);
+    const double density =
+        count(heights_.begin(), heights_.end()) * std::exp(rise_ * (z - low_)) / seen;
     const double lost = (1.0 - stray) * (1.0 - stray) / seen;
-    return std::max(0.0, density * (stepInformation(stray) / noise_ - lost));
+    return std::max(0.0, density * (stepInformation(step_, stray) / step_.noise - lost));
+  }
+
+  TailCount tails(double z) const {
+    const double near = z + kBlur * step_.noise;
+    const double far = z + kTailReach * step_.noise;
+    const double before = z - kBlur * step_.noise;
+    if (before <= low_ || high_ - far < far - near) return {};
+    const auto begin = std::upper_bound(heights_.begin(), heights_.end(), near);
+    const auto end = std::upper_bound(begin, heights_.end(), far);
+    const double strays = count(end, heights_.end()) / (high_ - far) * (far - near);
+    const double own =
+        count(heights_.begin(), std::lower_bound(heights_.begin(), heights_.end(), before)) /
+        lengthOf(low_, before, z);
+    const BlurredStep all{step_.noise, 1.0};
+    return {count(begin, end) - strays, count(begin, end) + strays,
+            own * all.tailsBetween(near - z, far - z)};
   }
 
  private:
-  using Iterator = std::vector<double>::const_iterator;
-  static double count(Iterator from, Iterator to) { return static_cast<double>(to - from); }
+  // The relative change of density with height, from the points up to there; 0 if it is not clear.
+  double riseUpTo(double to) const {
+    const auto end = std::upper_bound(heights_.begin(), heights_.end(), to);
+    const double n = count(heights_.begin(), end);
+    if (n == 0.0 || to <= low_) return 0.0;
+    double mean = 0.0;
+    for (auto z = heights_.begin(); z != end; ++z) mean += *z / n;
+    // A density 1 + g x over a length L has its mean at g L^2 / 12 from the middle, give or take
+    // L / sqrt(12 n).
+    const double length = to - low_;
+    const double off = mean - 0.5 * (low_ + to);
+    return std::abs(off) > kClearRise * length / std::sqrt(12.0 * n)
+               ? 12.0 * off / (length * length)
+               : 0.0;
+  }
+
+  // The integral of the density exp(rise (z - at)) over a range: its length if nothing rises.
+  double lengthOf(double from, double to, double at) const {
+    if (rise_ == 0.0) return to - from;
+    return (std::exp(rise_ * (to - at)) - std::exp(rise_ * (from - at))) / rise_;
+  }
+
+  double lengthOf(double from, double to) const { return lengthOf(from, to, low_); }
 
   // The window, what lies beyond the level by its density.
-  double length(double z, double stray) const {
-    return (1.0 - stray) * (z - low_) + stray * (high_ - low_);
+  double lengthSeen(double z, double stray) const {
+    return (1.0 - stray) * lengthOf(low_, z) + stray * lengthOf(low_, high_);
   }
 
   // Points of neighbours that are taken for the wall's own go on beyond its end.
   double strayAt(double z) const {
-    const double before = z - kBlur * noise_;
-    const double beyond = z + kBlur * noise_;
+    const double before = z - kBlur * step_.noise;
+    const double beyond = z + kBlur * step_.noise;
     if (before <= low_ || beyond >= high_) return kLeastStray;
     const double own =
         count(heights_.begin(), std::lower_bound(heights_.begin(), heights_.end(), before)) /
-        (before - low_);
+        lengthOf(low_, before, z);
     const double foreign =
-        count(std::upper_bound(heights_.begin(), heights_.end(), beyond), heights_.end()) /
-        (high_ - beyond);
+        (count(std::upper_bound(heights_.begin(), heights_.end(), beyond), heights_.end()) -
+         own * step_.tailsBetween(beyond - z, high_ - z)) /
+        lengthOf(beyond, high_, z);
     return foreign < own ? std::max(kLeastStray, foreign / own) : 1.0;
   }
 
   std::vector<double> heights_;  // ascending
   double low_;
   double high_;
-  double noise_;
+  BlurredStep step_;
+  double rise_ = 0.0;
 };
 
 // Heights of the points of level faces: most lie at the level, the others anywhere in the window.
@@ -119,6 +211,46 @@ class CapLikelihood {
   const std::vector<double>& heights_;
   double window_;
   double noise_;
+};
+
+std::vector<double> mirrored(const std::vector<double>& heights) {
+  std::vector<double> result;
+  for (auto z = heights.rbegin(); z != heights.rend(); ++z) result.push_back(-*z);
+  return result;
+}
+
+// The walls of all four lists of one level.
+class Steps {
+ public:
+  Steps(const LevelEvidence& level, double from, double to, const BlurredStep& step) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      ends_.emplace_back(level.ends[i], level.low, level.high, from, step);
+      starts_.emplace_back(mirrored(level.starts[i]), -level.high, -level.low, -to, step);
+      size_ += level.ends[i].size() + level.starts[i].size();
+    }
+  }
+
+  std::size_t size() const { return size_; }
+  double at(double z) const {
+    return ends_[0].at(z) + ends_[1].at(z) + starts_[0].at(-z) + starts_[1].at(-z);
+  }
+  double information(double z) const {
+    double sum = 0.0;
+    for (const StepLikelihood& end : ends_) sum += end.information(z);
+    for (const StepLikelihood& start : starts_) sum += start.information(-z);
+    return sum;
+  }
+  // Of the walls without close neighbours.
+  TailCount tails(double z) const {
+    TailCount sum = ends_[0].tails(z);
+    sum += starts_[0].tails(-z);
+    return sum;
+  }
+
+ private:
+  std::vector<StepLikelihood> ends_;
+  std::vector<StepLikelihood> starts_;
+  std::size_t size_ = 0;
 };
 
 struct Maximum {
@@ -161,45 +293,40 @@ Maximum maximize(const Function& function, double from, double to, double noise)
   return {0.5 * (a + b), std::max(at_c, at_d)};
 }
 
-std::vector<double> mirrored(const std::vector<double>& heights) {
-  std::vector<double> result;
-  for (auto z = heights.rbegin(); z != heights.rend(); ++z) result.push_back(-*z);
-  return result;
-}
-
 }  // namespace
 
-HeightFit fitLevel(const LevelEvidence& level, double noise, double max_shift) {
+HeightFit fitLevel(const LevelEvidence& level, double noise, double max_shift, double tails) {
   HeightFit fit;
   fit.z = level.guess;
   fit.cap_support = level.caps.size();
   const double from = std::max(level.low + noise, level.guess - max_shift);
   const double to = std::min(level.high - noise, level.guess + max_shift);
   if (!(from < to)) return fit;
-  std::vector<StepLikelihood> ends;
-  std::vector<StepLikelihood> starts;
-  for (std::size_t i = 0; i < 2; ++i) {
-    ends.emplace_back(level.ends[i], level.low, level.high, noise);
-    starts.emplace_back(mirrored(level.starts[i]), -level.high, -level.low, noise);
-    fit.wall_support += level.ends[i].size() + level.starts[i].size();
-  }
+  const Steps steps(level, from, to, {noise, tails});
+  fit.wall_support = steps.size();
   const CapLikelihood caps(level.caps, level.high - level.low, noise);
   const auto ofCaps = [&](double z) { return caps.at(z); };
   // Points of a slanted roof lie at no level.
   const bool flat = !level.caps.empty() && maximize(ofCaps, from, to, noise).value > kClear;
-  const auto ofAll = [&](double z) {
-    return ends[0].at(z) + ends[1].at(z) + starts[0].at(-z) + starts[1].at(-z) +
-           (flat ? caps.at(z) : 0.0);
-  };
+  const auto ofAll = [&](double z) { return steps.at(z) + (flat ? caps.at(z) : 0.0); };
   const Maximum best = maximize(ofAll, from, to, noise);
   if (best.value < kClear) return fit;
   fit.z = best.z;
-  double information = flat ? caps.information(fit.z) : 0.0;
-  for (std::size_t i = 0; i < 2; ++i) {
-    information += ends[i].information(fit.z) + starts[i].information(-fit.z);
-  }
-  fit.deviation = 1.0 / std::sqrt(information);
+  fit.deviation =
+      1.0 / std::sqrt(steps.information(fit.z) + (flat ? caps.information(fit.z) : 0.0));
   return fit;
+}
+
+double tailsOf(const std::vector<LevelEvidence>& levels, const std::vector<HeightFit>& fits,
+               double noise) {
+  TailCount all;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    if (std::isinf(fits[k].deviation)) continue;
+    const double z = fits[k].z;
+    all += Steps(levels[k], z, z, {noise, 0.0}).tails(z);
+  }
+  const bool clear = all.excess > kClearTails * std::sqrt(all.variance);
+  return clear ? std::min(all.excess / all.possible, kMaxTails) : 0.0;
 }
 
 }  // namespace storey::detail

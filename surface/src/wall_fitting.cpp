@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/console/print.h>
 #include <storey/surface/detail/wall_assignment.h>
+#include <storey/surface/detail/wall_corners.h>
+#include <storey/surface/detail/wall_relief.h>
 #include <storey/surface/floorplan_fitting.h>
 
 #include <algorithm>
@@ -21,7 +23,6 @@ constexpr double kTukeyDeviation = 0.98237;
 constexpr double kMaxAngleDeviation = 0.05;  // rad; a wall that tells less keeps its direction,
                                              // unless its points contradict
 constexpr double kSameDirection = 3.5;       // standard deviations
-constexpr double kMinTurn = 0.03;            // rad; lines that cross at less have no stable corner
 constexpr std::size_t kMinSupport = 8;       // points
 
 // A wall while it is fitted: its line, and the weighted moments of its points along (s) and across
@@ -31,22 +32,23 @@ struct Wall {
   Eigen::Vector2d normal;
   double w = 0.0, s = 0.0, d = 0.0, ss = 0.0, sd = 0.0, dd = 0.0;
   std::size_t support = 0;
+  std::vector<Eigen::Vector2d> points;  // along and across
+  detail::WallRelief relief;
 
   Eigen::Vector2d tangent() const { return {-normal.y(), normal.x()}; }
   double spread() const { return ss - s * s / w; }  // of the points along the wall
+  // Of the middle of the points. The relief counts the panes beyond the gate, the moments do not.
+  double across(double noise) const { return relief.in_use ? relief.offset * noise : d / w; }
   double residual(double slope) const {
     const double mean = d / w;
     const double variance = (dd - d * mean - slope * (sd - s * mean)) / w;
     return std::sqrt(std::max(0.0, variance)) / kTukeyScatter;
   }
-  void clear() { w = s = d = ss = sd = dd = 0.0, support = 0; }
-  void add(const Eigen::Vector2d& point, double scale) {
+  void collect(const Eigen::Vector2d& point) {
     const Eigen::Vector2d r = point - reference;
-    const double across = r.dot(normal);
-    const double along = r.dot(tangent());
-    const double u = across / scale;
-    if (std::abs(u) >= 1.0) return;
-    const double weight = (1.0 - u * u) * (1.0 - u * u);
+    points.emplace_back(r.dot(tangent()), r.dot(normal));
+  }
+  void add(double along, double across, double weight) {
     w += weight;
     s += weight * along;
     d += weight * across;
@@ -76,18 +78,54 @@ Walls wallsOf(const std::vector<FloorplanLayer>& layers) {
   return walls;
 }
 
-void collectMoments(const std::vector<FloorplanLayer>& layers, const FitPoints& points,
-                    double noise, Walls& walls) {
-  for (auto& [id, wall] : walls) wall.clear();
+void collectPoints(const std::vector<FloorplanLayer>& layers, const FitPoints& points, double noise,
+                   Walls& walls) {
   const detail::WallAssignment assignment(layers, noise);
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     const auto wall = walls.find(assignment.wallOf(points.positions[i], points.normals[i]));
     if (wall == walls.end()) continue;
-    wall->second.add(points.positions[i].head<2>().cast<double>(), kTukey * noise);
+    wall->second.collect(points.positions[i].head<2>().cast<double>());
+  }
+}
+
+void findRelief(double noise, Walls& walls) {
+  std::vector<Wall*> seen;
+  std::vector<detail::ResidualHistogram> histograms;
+  for (auto& [id, wall] : walls) {
+    if (wall.points.size() < kMinSupport) continue;
+    seen.push_back(&wall);
+    histograms.emplace_back();
+    for (const Eigen::Vector2d& point : wall.points) histograms.back().add(point.y() / noise);
+  }
+  const std::vector<detail::WallRelief> reliefs = detail::fitRelief(histograms);
+  for (std::size_t k = 0; k < reliefs.size(); ++k) seen[k]->relief = reliefs[k];
+}
+
+// Tukey's weights; where the wall has relief, one step of expectation and maximisation.
+void sumMoments(double noise, Wall& wall) {
+  for (const Eigen::Vector2d& point : wall.points) {
+    if (wall.relief.in_use) {
+      const auto expected = wall.relief.expected(point.y() / noise);
+      wall.add(point.x(), expected.residual * noise, expected.weight);
+      continue;
+    }
+    const double u = point.y() / (kTukey * noise);
+    if (std::abs(u) < 1.0) wall.add(point.x(), point.y(), (1.0 - u * u) * (1.0 - u * u));
   }
 }
 
 void rotateTo(Wall& wall, double angle) { wall.normal = {std::cos(angle), std::sin(angle)}; }
+
+void setDeviations(const Wall& wall, double noise, double slope, WallFit& fit) {
+  if (wall.relief.in_use) {
+    fit.angle_deviation = noise / std::sqrt(wall.relief.information * wall.spread() / wall.w);
+    fit.offset_deviation = noise * wall.relief.offset_deviation;
+    return;
+  }
+  const double deviation = kTukeyDeviation * std::max(wall.residual(slope), 0.1 * noise);
+  fit.angle_deviation = deviation / std::sqrt(wall.spread());
+  fit.offset_deviation = deviation / std::sqrt(wall.w);
+}
 
 // Solves each wall: d = a + b s, or d = a where the points are too few to tell b.
 std::map<int, WallFit> solve(Walls& walls, double noise) {
@@ -100,14 +138,12 @@ std::map<int, WallFit> solve(Walls& walls, double noise) {
     if (wall.support >= kMinSupport && wall.w > 0.0 && wall.spread() > 0.0) {
       double slope = (wall.sd - wall.s * wall.d / wall.w) / wall.spread();
       fit.support = wall.support;
-      const double deviation = kTukeyDeviation * std::max(wall.residual(slope), 0.1 * noise);
-      fit.angle_deviation = deviation / std::sqrt(wall.spread());
-      fit.offset_deviation = deviation / std::sqrt(wall.w);
+      setDeviations(wall, noise, slope, fit);
       const bool contradicts = std::abs(slope) > kSameDirection * fit.angle_deviation;
       if (fit.angle_deviation > kMaxAngleDeviation && !contradicts) slope = 0.0;
-      fit.residual = wall.residual(slope);
+      fit.residual = wall.relief.in_use ? wall.relief.deviation * noise : wall.residual(slope);
       const Eigen::Vector2d centre =
-          wall.reference + (wall.s / wall.w) * wall.tangent() + (wall.d / wall.w) * wall.normal;
+          wall.reference + (wall.s / wall.w) * wall.tangent() + wall.across(noise) * wall.normal;
       fit.normal = (wall.normal - slope * wall.tangent()).normalized();
       fit.offset = fit.normal.dot(centre);
       fit.centre = centre;
@@ -181,45 +217,6 @@ void shareDirections(Walls& walls, std::map<int, WallFit>& fits) {
   }
 }
 
-// Corners to the intersections of the lines; false if an edge would turn around.
-bool moveCorners(FloorplanRing& ring, const std::map<int, WallFit>& fits) {
-  const std::size_t n = ring.size();
-  FloorplanRing moved = ring;
-  const auto line = [&](std::size_t i, Eigen::Vector2d& normal, double& offset) {
-    const auto fit = fits.find(ring.edges[i].wall);
-    if (fit != fits.end()) {
-      normal = fit->second.normal;
-      offset = fit->second.offset;
-      return;
-    }
-    const Eigen::Vector2d along = ring.vertices[(i + 1) % n] - ring.vertices[i];
-    normal = Eigen::Vector2d(along.y(), -along.x()).normalized();
-    offset = normal.dot(ring.vertices[i]);
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    Eigen::Vector2d n1, n2;
-    double d1 = 0.0, d2 = 0.0;
-    line((i + n - 1) % n, n1, d1);
-    line(i, n2, d2);
-    const double det = n1.x() * n2.y() - n1.y() * n2.x();
-    if (std::abs(det) < std::sin(kMinTurn)) return false;
-    moved.vertices[i] = {(d1 * n2.y() - d2 * n1.y()) / det, (n1.x() * d2 - n2.x() * d1) / det};
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t j = (i + 1) % n;
-    if ((moved.vertices[j] - moved.vertices[i]).dot(ring.vertices[j] - ring.vertices[i]) <= 0.0) {
-      return false;
-    }
-  }
-  ring = std::move(moved);
-  return true;
-}
-
-void moveOrRelease(FloorplanRing& ring, const std::map<int, WallFit>& fits) {
-  if (moveCorners(ring, fits)) return;
-  for (FloorplanEdge& edge : ring.edges) edge.wall = -1;
-}
-
 }  // namespace
 
 std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPoints& points,
@@ -236,15 +233,12 @@ std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPo
   std::map<int, WallFit> fits;
   for (int round = 0; round < kRounds; ++round) {
     Walls walls = wallsOf(layers);
-    collectMoments(layers, points, options.noise, walls);
+    collectPoints(layers, points, options.noise, walls);
+    if (round > 0) findRelief(options.noise, walls);  // about lines that are nearly right
+    for (auto& [id, wall] : walls) sumMoments(options.noise, wall);
     fits = solve(walls, options.noise);
     if (options.share_directions) shareDirections(walls, fits);
-    for (FloorplanLayer& layer : layers) {
-      for (FloorplanComponent& component : layer.plan.components) {
-        moveOrRelease(component.outer, fits);
-        for (FloorplanRing& hole : component.holes) moveOrRelease(hole, fits);
-      }
-    }
+    detail::moveCorners(layers, fits);
   }
   return fits;
 }

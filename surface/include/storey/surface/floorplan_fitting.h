@@ -60,6 +60,13 @@ struct FitOptions {
 std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPoints& points,
                                 const FitOptions& options);
 
+/// Moves walls that have next to no points of their own (less than 3 % of the density of the wall
+/// in the middle) to where the points of their neighbors end, by the likelihood that `fitHeights`
+/// has for levels; their directions stay unless both ends contradict them. \param fits of
+/// `fitWalls` for the same layers; changed in place, as the layers are
+void fitUnseenWalls(std::vector<FloorplanLayer>& layers, const FitPoints& points, double noise,
+                    std::map<int, WallFit>& fits);
+
 /// Moves the boundaries between layers, the foot and the top to where the points say they are
 /// (doc/method.md, deviation 6): the maximum likelihood of a step in the density of the points of
 /// all walls that end or start there, blurred by the noise, and of the points of the level faces

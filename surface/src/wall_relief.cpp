@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <storey/surface/detail/wall_relief.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace storey::detail {
+namespace {
+
+constexpr double kStartDepths[] = {2.0, 4.0, -2.0, -4.0};
+constexpr double kMinDepth = 1.2;  // deviations: below, two normals are like a wider one
+constexpr double kMaxDepth = 8.0;
+constexpr double kStartShare = 0.2;
+constexpr double kMaxShare = 0.5;  // the wall is what most points are of
+constexpr double kStartBackground = 0.05;
+constexpr double kLeast = 1e-6;        // of shares, so that they can grow
+constexpr double kPriorPoints = 20.0;  // a wall with few has the share that all have
+constexpr double kMinDeviation = 0.3;  // noise deviations
+constexpr double kConverged = 0.01;    // log-likelihood
+constexpr int kMaxIterations = 300;
+constexpr double kClear = 20.0;         // log-likelihood: relief that is really there,
+constexpr double kClearPerWall = 2.0;   // beyond what chance gives each wall
+constexpr double kRefuted = 5.0;        // log-likelihood: a wall that has its own scatter instead
+constexpr std::ptrdiff_t kBeyond = 20;  // bins each side of the gate, where points are not seen
+constexpr double kInvSqrt2Pi = 0.3989422804014327;
+
+using Counts = ResidualHistogram;
+
+// Densities of the three parts at a residual.
+struct Parts {
+  double wall, pane, background;
+  double sum() const { return wall + pane + background; }
+};
+
+Parts partsAt(const WallRelief& relief, double u) {
+  const double scale = 1.0 / relief.deviation;
+  const double height = (1.0 - relief.background) * kInvSqrt2Pi * scale;
+  const double of_wall = (u - relief.offset) * scale;
+  const double of_pane = of_wall + relief.depth * scale;
+  return {height * (1.0 - relief.share) * std::exp(-0.5 * of_wall * of_wall),
+          relief.share > 0.0 ? height * relief.share * std::exp(-0.5 * of_pane * of_pane) : 0.0,
+          relief.background / (2.0 * Counts::kGate)};
+}
+
+// Expected numbers and moments of the points of each part, and the likelihood of those seen.
+struct Expectation {
+  double wall = 0.0, wall_u = 0.0, wall_uu = 0.0;
+  double pane = 0.0, pane_u = 0.0, pane_uu = 0.0;
+  double background = 0.0;
+  double likelihood = 0.0;
+
+  void add(const Parts& parts, double u, double count) {
+    const double scale = count / parts.sum();
+    wall += scale * parts.wall;
+    wall_u += scale * parts.wall * u;
+    wall_uu += scale * parts.wall * u * u;
+    pane += scale * parts.pane;
+    pane_u += scale * parts.pane * u;
+    pane_uu += scale * parts.pane * u * u;
+    background += scale * parts.background;
+  }
+  double offset(double depth) const { return (wall_u + pane_u + depth * pane) / (wall + pane); }
+  double squares(double a, double depth) const {
+    const double b = a - depth;
+    return wall_uu - 2.0 * a * wall_u + a * a * wall + pane_uu - 2.0 * b * pane_u + b * b * pane;
+  }
+};
+
+Expectation expect(const Counts& histogram, const WallRelief& relief) {
+  Expectation sum;
+  double seen = 0.0;
+  constexpr auto kBins = static_cast<std::ptrdiff_t>(Counts::kBins);
+  for (std::ptrdiff_t b = 0; b < kBins; ++b) {
+    const double count = histogram.counts()[static_cast<std::size_t>(b)];
+    const double u = Counts::middleOf(b);
+    const Parts parts = partsAt(relief, u);
+    seen += parts.sum() * Counts::kWidth;
+    if (count == 0.0) continue;
+    sum.add(parts, u, count);
+    sum.likelihood += count * std::log(parts.sum());
+  }
+  sum.likelihood -= histogram.total() * std::log(seen);
+  // Points beyond the gate are as many as the model says.
+  const auto addUnseen = [&](std::ptrdiff_t b) {
+    const double u = Counts::middleOf(b);
+    Parts parts = partsAt(relief, u);
+    parts.background = 0.0;
+    if (parts.sum() < kLeast) return;
+    sum.add(parts, u, histogram.total() * parts.sum() * Counts::kWidth / seen);
+  };
+  for (std::ptrdiff_t b = 1; b <= kBeyond; ++b) {
+    addUnseen(-b);
+    addUnseen(kBins - 1 + b);
+  }
+  return sum;
+}
+
+// One normal over the background: offset, deviation and background by EM. \return its likelihood
+double fitNormal(const Counts& histogram, WallRelief& relief) {
+  relief = WallRelief();
+  relief.background = kStartBackground;
+  double before = -INFINITY;
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const Expectation sum = expect(histogram, relief);
+    if (sum.likelihood < before + kConverged) return sum.likelihood;
+    before = sum.likelihood;
+    relief.offset = sum.offset(0.0);
+    relief.deviation =
+        std::max(kMinDeviation, std::sqrt(sum.squares(relief.offset, 0.0) / sum.wall));
+    relief.background = std::max(kLeast, sum.background / (sum.background + sum.wall));
+  }
+  return before;
+}
+
+// All walls with common depth and deviation.
+struct Building {
+  std::vector<WallRelief> walls;
+  std::vector<double> likelihoods;
+
+  double likelihood() const {
+    double sum = 0.0;
+    for (const double l : likelihoods) sum += l;
+    return sum;
+  }
+};
+
+// One step of EM: the wall's own values from its points, the common ones from all.
+void improve(const std::vector<Expectation>& sums, Building& building) {
+  double points = 0.0, panes = 0.0, set_back = 0.0, squares = 0.0;
+  for (const Expectation& sum : sums) points += sum.wall + sum.pane, panes += sum.pane;
+  const double common_share = panes / points;
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    WallRelief& wall = building.walls[k];
+    wall.offset = sums[k].offset(wall.depth);
+    wall.share = std::clamp(
+        (sums[k].pane + kPriorPoints * common_share) / (sums[k].pane + sums[k].wall + kPriorPoints),
+        kLeast, kMaxShare);
+    const double all = sums[k].wall + sums[k].pane + sums[k].background;
+    wall.background = std::max(kLeast, sums[k].background / all);
+    set_back += wall.offset * sums[k].pane - sums[k].pane_u;
+  }
+  const double sign = building.walls.front().depth < 0.0 ? -1.0 : 1.0;
+  const double depth =
+      sign * std::clamp(sign * set_back / std::max(panes, kLeast), kMinDepth, kMaxDepth);
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    squares += sums[k].squares(building.walls[k].offset, depth);
+  }
+  const double deviation = std::max(kMinDeviation, std::sqrt(squares / points));
+  for (WallRelief& wall : building.walls) wall.depth = depth, wall.deviation = deviation;
+}
+
+Building fitBuilding(const std::vector<Counts>& histograms, Building building) {
+  double before = -INFINITY;
+  for (int i = 0; i < kMaxIterations; ++i) {
+    std::vector<Expectation> sums;
+    building.likelihoods.clear();
+    for (std::size_t k = 0; k < histograms.size(); ++k) {
+      sums.push_back(expect(histograms[k], building.walls[k]));
+      building.likelihoods.push_back(sums.back().likelihood);
+    }
+    if (building.likelihood() < before + kConverged) break;
+    before = building.likelihood();
+    improve(sums, building);
+  }
+  return building;
+}
+
+Building fitFrom(const std::vector<Counts>& histograms, const std::vector<WallRelief>& alone,
+                 double depth) {
+  Building start;
+  start.walls = alone;
+  for (WallRelief& wall : start.walls) {
+    wall.share = kStartShare;
+    wall.depth = depth;
+    wall.offset += kStartShare * depth;
+    wall.deviation = 1.0;
+  }
+  return fitBuilding(histograms, std::move(start));
+}
+
+// Fisher's information on offset and share, from the points themselves.
+void setInformation(const Counts& histogram, WallRelief& relief) {
+  double offset = 0.0, share = 0.0, both = 0.0;
+  for (std::size_t b = 0; b < Counts::kBins; ++b) {
+    const double u = Counts::middleOf(static_cast<std::ptrdiff_t>(b)) - relief.offset;
+    const Parts parts = partsAt(relief, u + relief.offset);
+    const double by_offset = (parts.wall * u + parts.pane * (u + relief.depth)) /
+                             (parts.sum() * relief.deviation * relief.deviation);
+    const double by_share =
+        (parts.pane / relief.share - parts.wall / (1.0 - relief.share)) / parts.sum();
+    offset += histogram.counts()[b] * by_offset * by_offset;
+    share += histogram.counts()[b] * by_share * by_share;
+    both += histogram.counts()[b] * by_offset * by_share;
+  }
+  relief.information = offset;
+  relief.offset_deviation = 1.0 / std::sqrt(offset - both * both / share);
+}
+
+}  // namespace
+
+void ResidualHistogram::add(double residual) {
+  if (!(std::abs(residual) < kGate)) return;
+  const auto bin = static_cast<std::size_t>((residual + kGate) / kWidth);
+  counts_[std::min(bin, kBins - 1)] += 1.0;
+  total_ += 1.0;
+}
+
+WallRelief::Expected WallRelief::expected(double residual) const {
+  const Parts parts = partsAt(*this, residual);
+  const double own = parts.wall + parts.pane;
+  if (!(own > 0.0)) return {0.0, residual};
+  return {own / parts.sum(), residual + depth * parts.pane / own};
+}
+
+std::vector<WallRelief> fitRelief(const std::vector<ResidualHistogram>& walls) {
+  if (walls.empty()) return {};
+  std::vector<WallRelief> alone(walls.size());
+  std::vector<double> likelihoods;
+  for (std::size_t k = 0; k < walls.size(); ++k) {
+    likelihoods.push_back(fitNormal(walls[k], alone[k]));
+  }
+  Building best;
+  for (const double depth : kStartDepths) {
+    Building building = fitFrom(walls, alone, depth);
+    if (best.walls.empty() || building.likelihood() > best.likelihood()) best = std::move(building);
+  }
+  // Walls that are rough in their own way must not blur what the others have in common.
+  std::vector<std::size_t> alike;
+  std::vector<Counts> histograms;
+  Building rest;
+  for (std::size_t k = 0; k < best.walls.size(); ++k) {
+    if (best.likelihoods[k] < likelihoods[k] - kRefuted) continue;
+    alike.push_back(k);
+    histograms.push_back(walls[k]);
+    rest.walls.push_back(best.walls[k]);
+  }
+  if (alike.empty()) return {};
+  rest = fitBuilding(histograms, std::move(rest));
+  double gain = 0.0;
+  for (std::size_t i = 0; i < alike.size(); ++i) {
+    gain += rest.likelihoods[i] - likelihoods[alike[i]];
+    alone[alike[i]] = rest.walls[i];
+    alone[alike[i]].in_use = true;
+    setInformation(walls[alike[i]], alone[alike[i]]);
+  }
+  if (gain < kClear + kClearPerWall * static_cast<double>(alike.size())) return {};
+  return alone;
+}
+
+}  // namespace storey::detail
