@@ -23,6 +23,7 @@ constexpr double kAngleDeviations = 4.0;
 constexpr double kMinDirectionShare = 0.04;            // of the supported area
 constexpr double kNearDirection = 4.0 * M_PI / 180.0;  // rad
 constexpr double kOutweighs = 3.0;
+constexpr double kBeside = 0.25;        // points of the stronger line, of the weaker's support
 constexpr double kExplained = 2.5;      // noise deviations across a line
 constexpr double kMinAgreement = 0.5;   // cosine of 60 degrees
 constexpr double kSupportMargin = 5.0;  // noise deviations beyond the ends of a line
@@ -205,22 +206,35 @@ std::vector<double> directionsOf(const std::vector<FoundLine>& lines) {
   return angles;
 }
 
+// The heights of the middle half of the points.
+std::pair<double, double> middleHeights(const std::vector<WallPoint>& points,
+                                        const std::vector<int>& support) {
+  std::vector<double> heights;
+  for (const int i : support) heights.push_back(points[static_cast<std::size_t>(i)].z);
+  std::sort(heights.begin(), heights.end());
+  return {heights[heights.size() / 4], heights[3 * heights.size() / 4]};
+}
+
 // Two lines over the same support are one wall: window panes, the tails of the noise, a lean.
-bool duplicates(const WallLine& weak, const WallLine& strong, const WallScale& scale) {
+bool duplicates(const FoundLine& found, const FoundLine& other,
+                const std::vector<WallPoint>& points, const WallScale& scale) {
+  const WallLine& weak = found.line;
+  const WallLine& strong = other.line;
   if (strong.normal.dot(weak.normal) < std::cos(kNearDirection)) return false;
   const auto off = [&](double s) {
     return std::abs(strong.across(weak.offset * weak.normal + s * weak.tangent()));
   };
   const double far = std::max(off(weak.s_min), off(weak.s_max));
   if (far < 1.0 * scale.noise) return true;
-  const auto overlap = [](double a0, double a1, double b0, double b1) {
-    return std::max(0.0, std::min(a1, b1) - std::max(a0, b0));
-  };
-  const double shared = overlap(weak.s_min, weak.s_max, strong.s_min, strong.s_max) *
-                        overlap(weak.z_min, weak.z_max, strong.z_min, strong.z_max);
-  const double own = (weak.s_max - weak.s_min) * (weak.z_max - weak.z_min);
-  return far < 4.0 * scale.noise && shared > 0.5 * own &&
-         static_cast<double>(weak.support) < 0.7 * static_cast<double>(strong.support);
+  if (far > 4.0 * scale.noise) return false;
+  // A wall in front of another lies at other places or heights than it, but for a few strays.
+  const auto [low, high] = middleHeights(points, found.support);
+  const auto beside = std::count_if(other.support.begin(), other.support.end(), [&](const int i) {
+    const WallPoint& p = points[static_cast<std::size_t>(i)];
+    const double s = weak.along(p.position);
+    return s > weak.s_min && s < weak.s_max && p.z > low && p.z < high;
+  });
+  return static_cast<double>(beside) > kBeside * static_cast<double>(weak.support);
 }
 
 bool explains(const WallLine& line, const WallPoint& p, double noise) {
@@ -233,11 +247,11 @@ bool explains(const WallLine& line, const WallPoint& p, double noise) {
 
 // Whether stronger lines explain nearly all of the support: at corners, where points of two walls
 // mix, the greedy search leaves some that a line of their own fits.
-bool isLeftover(const FoundLine& weak, const std::vector<WallLine>& strong,
+bool isLeftover(const FoundLine& weak, const std::vector<FoundLine>& strong,
                 const std::vector<WallPoint>& points, double noise) {
   const auto explained = std::count_if(weak.support.begin(), weak.support.end(), [&](const int i) {
-    return std::any_of(strong.begin(), strong.end(), [&](const WallLine& line) {
-      return explains(line, points[static_cast<std::size_t>(i)], noise);
+    return std::any_of(strong.begin(), strong.end(), [&](const FoundLine& other) {
+      return explains(other.line, points[static_cast<std::size_t>(i)], noise);
     });
   });
   return static_cast<double>(explained) > kLeftover * static_cast<double>(weak.support.size());
@@ -270,14 +284,18 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
   std::stable_sort(lines.begin(), lines.end(), [](const FoundLine& a, const FoundLine& b) {
     return a.line.support > b.line.support;
   });
-  std::vector<WallLine> distinct;
-  for (const FoundLine& found : lines) {
-    const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const WallLine& strong) {
-      return duplicates(found.line, strong, scale);
+  std::vector<FoundLine> distinct;
+  for (FoundLine& found : lines) {
+    const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const FoundLine& strong) {
+      return duplicates(found, strong, points, scale);
     });
-    if (!known && !isLeftover(found, distinct, points, scale.noise)) distinct.push_back(found.line);
+    if (!known && !isLeftover(found, distinct, points, scale.noise)) {
+      distinct.push_back(std::move(found));
+    }
   }
-  return distinct;
+  std::vector<WallLine> walls;
+  for (FoundLine& found : distinct) walls.push_back(std::move(found.line));
+  return walls;
 }
 
 }  // namespace storey::detail
