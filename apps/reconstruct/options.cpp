@@ -47,7 +47,7 @@ po::options_description describe(Options& o) {
       "height of a slice, length [0 = derived]")(
       "smoothness", po::value(&o.smoothness)->default_value(0.1),
       "eta1: cost of a change of the floorplan from slice to slice, >= 0")(
-      "label-cost", po::value(&o.label_cost)->default_value(1.0),
+      "label-cost", po::value(&o.label_cost)->default_value(0.5),
       "eta2: cost of one more floorplan type, >= 0")(
       "max-types", po::value(&o.max_types)->default_value(0),
       "greatest number of floorplan types [0 = no limit]")(

@@ -28,7 +28,7 @@ struct Options {
   double kept_share = 0.85;
   double slice_thickness = 0.0;
   double smoothness = 0.1;
-  double label_cost = 1.0;
+  double label_cost = 0.5;
   int max_types = 0;       ///< of floorplans; 0: no limit
   int max_faces = 0;       ///< method building: of the model; 0: no limit
   bool trade_off = false;  ///< method building: report the whole trade-off

@@ -14,11 +14,12 @@ namespace storey {
 struct DominantFloorplanOptions {
   FloorplanGrammar::Encoding encoding = FloorplanGrammar::Encoding::Walls;
   double length_tolerance = 0.0;  ///< see FloorplanGrammar::setLengthTolerance; > 0
-  double smoothness = 0.1;    ///< eta1; the paper names no value. With 0.1 a floorplan that differs
-                              ///< wholly from its neighbours is worth a change from two slices on
-  double label_cost = 1.0;    ///< eta2
-  double small_change = 3.0;  ///< k1, between types with 0 < NEdist <= zeta
-  double large_change = 9.0;  ///< k2 = 3 k1, between all other types
+  double smoothness = 0.1;  ///< eta1; the paper names no value. With 0.1 a floorplan that differs
+                            ///< wholly from its neighbours is worth a change from two slices on
+  double label_cost = 0.5;  ///< eta2; the paper names no value. With 1, the fourth floorplan of its
+                            ///< third synthetic building explains less than it costs
+  double small_change = 3.0;      ///< k1, between types with 0 < NEdist <= zeta
+  double large_change = 9.0;      ///< k2 = 3 k1, between all other types
   double change_threshold = 0.5;  ///< zeta
   bool exact = true;              ///< branch and bound; false: alpha-expansion as in the paper
   std::size_t max_types = 0;      ///< no more types than this; 0: no limit

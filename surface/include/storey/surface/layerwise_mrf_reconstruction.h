@@ -55,7 +55,7 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
   void setSmoothness(double eta1) { options_.smoothness = eta1; }
   double getSmoothness() const { return options_.smoothness; }
 
-  /// eta2, (11), >= 0; default 1.
+  /// eta2, (11), >= 0; see `DominantFloorplanOptions::label_cost`.
   void setLabelCost(double eta2) { options_.label_cost = eta2; }
   double getLabelCost() const { return options_.label_cost; }
 
