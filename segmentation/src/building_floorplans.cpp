@@ -14,31 +14,16 @@
 namespace storey::detail {
 namespace {
 
-constexpr std::size_t kMaxSamples = 250000;  // points that vote for lines
-constexpr double kMargin = 0.15;             // of the box around the walls
-constexpr double kSameLine = 1.0;            // noise deviations: opposite walls on one line
-constexpr double kFaceCost = 0.5;            // of the least area of a wall
-constexpr double kBlockFaces = 2.0;          // faces that one more block has at least
+constexpr double kMargin = 0.15;     // of the box around the walls
+constexpr double kSameLine = 1.0;    // noise deviations: opposite walls on one line
+constexpr double kFaceCost = 0.5;    // of the least area of a wall
+constexpr double kBlockFaces = 2.0;  // faces that one more block has at least
 // Where most of a building is missing, closing it costs more than its walls have to show, unless
 // what was not seen is taken as cheaper.
 constexpr double kMinExplained = 0.5;  // of the area of the walls found
 constexpr double kLeastGap = 0.1;
 constexpr double kShortEdge = 3.0;         // noise deviations
 constexpr double kCornerTolerance = 0.05;  // noise deviations
-
-std::vector<WallPoint> drawEvenly(const std::vector<WallPoint>& points) {
-  const std::size_t step = points.size() / kMaxSamples + 1;
-  if (step == 1) return points;
-  std::vector<WallPoint> sample;
-  // Golden-ratio stepping inside each stride, so that the order of a scanner leaves no pattern.
-  double phase = 0.5;
-  for (std::size_t i = 0; i < points.size(); i += step) {
-    phase = std::fmod(phase + 0.6180339887498949, 1.0);
-    const auto j = i + static_cast<std::size_t>(phase * static_cast<double>(step));
-    if (j < points.size()) sample.push_back(points[j]);
-  }
-  return sample;
-}
 
 struct PlanBox {
   Eigen::Vector2d low;

@@ -10,14 +10,15 @@
 namespace storey::detail {
 namespace {
 
-constexpr int kFreeAngles = 360;     // one a degree, all around: lines are oriented
-constexpr double kFreeBin = 1.5;     // of the offset, noise deviations
-constexpr int kFreeWindow = 3;       // bins
-constexpr double kLockedBin = 0.75;  // noise deviations
-constexpr int kLockedWindow = 5;     // bins
-constexpr double kMinVotes = 0.3;    // of the points that the least support would have
-constexpr int kMaxFailures = 40;     // peaks without support in a row
-constexpr int kMaxLines = 400;       // cells grow with their square
+constexpr std::size_t kMaxSamples = 250000;  // points that vote for lines
+constexpr int kFreeAngles = 360;             // one a degree, all around: lines are oriented
+constexpr double kFreeBin = 1.5;             // of the offset, noise deviations
+constexpr int kFreeWindow = 3;               // bins
+constexpr double kLockedBin = 0.75;          // noise deviations
+constexpr int kLockedWindow = 5;             // bins
+constexpr double kMinVotes = 0.3;            // of the points that the least support would have
+constexpr int kMaxFailures = 40;             // peaks without support in a row
+constexpr int kMaxLines = 400;               // cells grow with their square
 constexpr double kSameAngle = 0.1 * M_PI / 180.0;  // rad, least gap between directions
 constexpr double kAngleDeviations = 4.0;
 constexpr double kMinDirectionShare = 0.04;            // of the supported area
@@ -258,6 +259,20 @@ bool isLeftover(const FoundLine& weak, const std::vector<FoundLine>& strong,
 }
 
 }  // namespace
+
+std::vector<WallPoint> drawEvenly(const std::vector<WallPoint>& points) {
+  const std::size_t step = points.size() / kMaxSamples + 1;
+  if (step == 1) return points;
+  std::vector<WallPoint> sample;
+  // Golden-ratio stepping inside each stride, so that the order of a scanner leaves no pattern.
+  double phase = 0.5;
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    phase = std::fmod(phase + 0.6180339887498949, 1.0);
+    const auto j = i + static_cast<std::size_t>(phase * static_cast<double>(step));
+    if (j < points.size()) sample.push_back(points[j]);
+  }
+  return sample;
+}
 
 std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const WallScale& scale,
                                     const WallLineOptions& options) {

@@ -80,8 +80,6 @@ class BuildingFloorplanExtraction : public pcl::PCLBase<PointT> {
 
  private:
   bool parametersValid() const;
-  void gatherPoints(std::vector<detail::WallPoint>& walls,
-                    std::vector<detail::LevelPoint>& levels) const;
 
   double noise_ = 0.0;
   double density_ = 0.0;

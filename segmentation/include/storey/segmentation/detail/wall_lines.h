@@ -11,6 +11,9 @@ struct WallLineOptions {
   double min_area = 0.0;  ///< least supported area of a wall
 };
 
+/// At most 250,000 of the points, evenly drawn: enough to find lines with.
+std::vector<WallPoint> drawEvenly(const std::vector<WallPoint>& points);
+
 /// Finds the wall lines of a whole building: an oriented Hough vote over all heights at once.
 /// 1. Free pass: a point votes for all lines within `kVoteAngle` of its own, unsmoothed normal; the
 ///    line with most votes is fitted to its support, whose points and votes are taken away, and so
@@ -24,5 +27,11 @@ struct WallLineOptions {
 /// \return lines by support, strongest first
 std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const WallScale& scale,
                                     const WallLineOptions& options);
+
+/// The wall that each point is of: the line that is nearest to it among those within 3 noise
+/// deviations that its normal confirms (within 60 degrees) and whose support is at its place, or
+/// less than two support cells away from it. \return index into `lines`, -1: none
+std::vector<int> assignToWalls(const std::vector<WallPoint>& points,
+                               const std::vector<WallLine>& lines, const WallScale& scale);
 
 }  // namespace storey::detail

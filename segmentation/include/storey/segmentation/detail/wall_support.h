@@ -17,7 +17,8 @@ struct SupportOptions {
 /// others further on is cut off. There is none if
 /// - no cells are filled well enough,
 /// - nearly all of it turns against the line, so that it leans over two walls or passes through
-///   clutter: such a line is refused rather than turned, for walls have better guesses of their own,
+///   clutter: such a line is refused rather than turned, for walls have better guesses of their
+///   own,
 /// - the direction is locked and much of it is not flat along it, or
 /// - the points fill the space beside the line about as densely as they do the line: a tree.
 /// \param line a first guess, good to about two deviations of noise; refined in place
