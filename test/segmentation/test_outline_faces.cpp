@@ -2,9 +2,7 @@
 #include <gtest/gtest.h>
 #include <storey/segmentation/detail/outline_faces.h>
 
-#include <functional>
-
-#include "plans.h"
+#include "cell_blocks.h"
 
 namespace {
 
@@ -14,16 +12,9 @@ using detail::arrangeLines;
 using detail::BlockOutline;
 using detail::CellTerms;
 using detail::countFaces;
+using detail::countFloating;
 using detail::OutlineRun;
 using detail::runsOf;
-
-using Shape = std::function<bool(const Eigen::Vector2d&)>;
-
-Shape rectangle(double x0, double y0, double x1, double y1) {
-  return [=](const Eigen::Vector2d& p) {
-    return p.x() > x0 && p.x() < x1 && p.y() > y0 && p.y() < y1;
-  };
-}
 
 Shape either(const Shape& a, const Shape& b) {
   return [=](const Eigen::Vector2d& p) { return a(p) || b(p); };
@@ -40,12 +31,6 @@ LineArrangement finePlan() {
   return arrangeLines(gridLines({1, 3, 5, 7, 9}, {1, 3, 5, 7, 9}), {0, 0}, {10, 10}, 1e-9);
 }
 
-std::vector<char> cellsOf(const LineArrangement& plan, const Shape& shape) {
-  std::vector<char> inside;
-  for (const PlanCell& cell : plan.cells) inside.push_back(shape(middleOf(cell)) ? 1 : 0);
-  return inside;
-}
-
 CellTerms blankTerms(const LineArrangement& plan) {
   CellTerms terms;
   for (const PlanEdge& edge : plan.edges) terms.area.push_back(edge.length());
@@ -54,8 +39,9 @@ CellTerms blankTerms(const LineArrangement& plan) {
   return terms;
 }
 
-// Faces of the solid with these plans, bottom to top.
-std::size_t facesOf(const std::vector<Shape>& shapes) {
+// What a measure says of the stack of these plans, bottom to top.
+template <typename Measure>
+auto measured(const std::vector<Shape>& shapes, Measure measure) {
   const LineArrangement plan = finePlan();
   std::vector<std::vector<char>> insides;
   std::vector<std::vector<OutlineRun>> runs;
@@ -65,7 +51,21 @@ std::size_t facesOf(const std::vector<Shape>& shapes) {
   }
   std::vector<BlockOutline> blocks;
   for (std::size_t b = 0; b < shapes.size(); ++b) blocks.push_back({&insides[b], &runs[b]});
-  return countFaces(plan, blocks);
+  return measure(plan, blocks);
+}
+
+// Faces of the solid.
+std::size_t facesOf(const std::vector<Shape>& shapes) { return measured(shapes, countFaces); }
+
+std::size_t floatingOf(const std::vector<Shape>& shapes) {
+  return measured(shapes, [](const LineArrangement& plan, const std::vector<BlockOutline>& blocks) {
+    return countFloating(plan, blocks);
+  });
+}
+
+// What is added to the faces.
+double surchargeOf(const std::vector<Shape>& shapes) {
+  return measured(shapes, detail::complexityOf) - static_cast<double>(facesOf(shapes));
 }
 
 const Shape kBox = rectangle(1, 1, 9, 9);
@@ -115,6 +115,40 @@ TEST(OutlineFaces, AWallThatTurnsToTheOtherSideOfItsLineIsAnother) {
   // Below on one side of the line, above on the other: no wall goes on but the two across, which
   // touch in an edge of the solid only and do not go on either.
   EXPECT_EQ(facesOf({rectangle(1, 1, 5, 9), rectangle(5, 1, 9, 9)}), 2U * 6U);
+}
+
+TEST(OutlineFaces, PartsThatRestOnNothingFloat) {
+  const Shape corner = rectangle(1, 1, 3, 3);
+  const Shape opposite = rectangle(7, 7, 9, 9);
+  const Shape both = either(corner, opposite);
+  EXPECT_EQ(floatingOf({}), 0U);
+  EXPECT_EQ(floatingOf({both}), 0U);  // on the ground
+  EXPECT_EQ(floatingOf({kBox, both, corner}), 0U);
+  EXPECT_EQ(floatingOf({corner, kBox}), 0U);  // an overhang rests on a part of itself
+  EXPECT_EQ(floatingOf({corner, both}), 1U);
+  EXPECT_EQ(floatingOf({corner, opposite}), 1U);
+  EXPECT_EQ(floatingOf({kNothing, both}), 2U);
+  EXPECT_EQ(floatingOf({corner, both, both}), 1U);  // what stands on it does not float
+  EXPECT_EQ(floatingOf({both, kNothing, both}), 2U);
+  // Beside each other and corner to corner is not upon each other.
+  EXPECT_EQ(floatingOf({rectangle(1, 1, 5, 9), rectangle(5, 1, 9, 9)}), 1U);
+  EXPECT_EQ(floatingOf({rectangle(1, 1, 5, 5), rectangle(5, 5, 9, 9)}), 1U);
+  // In a courtyard, and on what is around it.
+  const Shape court = without(kBox, rectangle(3, 3, 7, 7));
+  EXPECT_EQ(floatingOf({court, rectangle(3, 3, 5, 5)}), 1U);
+  EXPECT_EQ(floatingOf({court, rectangle(1, 1, 5, 5)}), 0U);
+}
+
+TEST(OutlineFaces, EachPartThatFloatsCostsTheSameMore) {
+  const Shape corner = rectangle(1, 1, 3, 3);
+  const Shape opposite = rectangle(7, 7, 9, 9);
+  EXPECT_EQ(surchargeOf({}), 0.0);
+  EXPECT_EQ(surchargeOf({kBox, either(corner, opposite)}), 0.0);
+  const double one = surchargeOf({corner, opposite});
+  EXPECT_GT(one, 0.0);
+  EXPECT_EQ(surchargeOf({corner, either(corner, opposite)}), one);
+  EXPECT_EQ(surchargeOf({kNothing, either(corner, opposite)}), 2.0 * one);
+  EXPECT_EQ(surchargeOf({corner, opposite, corner}), 2.0 * one);
 }
 
 TEST(OutlineRuns, AreByLineAndWithTheAreaSeenFromTheirSide) {
