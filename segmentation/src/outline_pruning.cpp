@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -24,8 +25,9 @@ struct Outline {
 
 class Pruning {
  public:
-  Pruning(const LineArrangement& plan, double gap, double cost, std::vector<CellBlock>& blocks)
-      : plan_(plan), gap_(gap), cost_(cost) {
+  Pruning(const LineArrangement& plan, double gap, double cost, bool may_vanish,
+          std::vector<CellBlock>& blocks)
+      : plan_(plan), gap_(gap), cost_(cost), may_vanish_(may_vanish) {
     for (CellBlock& block : blocks) {
       Outline outline;
       outline.block = std::move(block);
@@ -72,6 +74,7 @@ class Pruning {
       }
     }
     const auto lines = std::count(used.begin(), used.end(), 1);
+    if (lines == 0 && !may_vanish_) return std::numeric_limits<double>::infinity();
     return energy + cost_ * (complexityOf(plan_, stack) + static_cast<double>(lines));
   }
 
@@ -205,6 +208,7 @@ class Pruning {
   const LineArrangement& plan_;
   double gap_;
   double cost_;
+  bool may_vanish_;
   std::vector<Outline> outlines_;
   double objective_ = 0.0;
 };
@@ -212,9 +216,9 @@ class Pruning {
 }  // namespace
 
 void pruneOutlines(const LineArrangement& plan, double gap, double cost,
-                   std::vector<CellBlock>& blocks) {
+                   std::vector<CellBlock>& blocks, bool may_vanish) {
   if (!(cost > 0.0) || blocks.empty()) return;
-  blocks = Pruning(plan, gap, cost, blocks).run();
+  blocks = Pruning(plan, gap, cost, may_vanish, blocks).run();
   for (CellBlock& block : blocks) block.measureCoverage();
 }
 

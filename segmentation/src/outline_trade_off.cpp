@@ -4,13 +4,13 @@
 #include <storey/segmentation/detail/outline_trade_off.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace storey::detail {
 namespace {
 
 constexpr double kCostStep = 1.25;
-constexpr int kMaxSteps = 120;  // 1.25^120 is more than any building explains
 
 OutlineTradeOff describe(const LineArrangement& plan, double face_cost,
                          const std::vector<CellBlock>& blocks) {
@@ -30,6 +30,27 @@ OutlineTradeOff describe(const LineArrangement& plan, double face_cost,
   return point;
 }
 
+// No two models differ by more in what they explain: where a face costs as much, only their faces
+// count.
+double decisiveCost(const std::vector<CellBlock>& blocks) {
+  double sum = 0.0;
+  for (const CellBlock& block : blocks) {
+    for (const double area : block.terms.area) sum += area;
+    for (const double cost : block.terms.unary) sum += std::abs(cost);
+  }
+  return 2.0 * sum;
+}
+
+// The whole height as one block.
+CellBlock joined(const LineArrangement& plan, double gap, const std::vector<CellBlock>& blocks) {
+  CellBlock one = blocks.front();
+  for (std::size_t b = 1; b < blocks.size(); ++b) one.terms.add(blocks[b].terms);
+  one.last_bin = blocks.back().last_bin;
+  one.energy = minimumCut(plan, one.terms, gap, {}, one.inside);
+  one.measureCoverage();
+  return one;
+}
+
 bool isWithin(const OutlineTradeOff& point, const SimplicityLimits& limits) {
   return (limits.max_faces == 0 || point.faces <= limits.max_faces) &&
          (limits.max_types == 0 || point.types <= limits.max_types);
@@ -43,14 +64,18 @@ std::vector<OutlineTradeOff> simplifyOutlines(const LineArrangement& plan, doubl
   std::vector<OutlineTradeOff> front = {describe(plan, face_cost, blocks)};
   bool within = isWithin(front.back(), limits);
   std::vector<CellBlock> current = blocks;
-  for (int step = 0; step < kMaxSteps && front.back().faces > 0; ++step) {
+  const double decisive = decisiveCost(blocks);
+  while (face_cost < decisive && front.back().faces > 0) {
     if (within && !limits.whole_front) break;
     face_cost *= kCostStep;
-    pruneOutlines(plan, gap, face_cost, current);
+    // Step by step a stack may not come down to one block.
+    if (face_cost >= decisive) current = {joined(plan, gap, current)};
+    pruneOutlines(plan, gap, face_cost, current, false);
     const OutlineTradeOff point = describe(plan, face_cost, current);
-    if (point.faces == 0) break;  // nothing earns its cost any more
-    if (point.faces < front.back().faces) front.push_back(point);
-    if (!within) {
+    if (point.faces == 0) break;  // nothing holds at all heights
+    const bool simpler = point.faces < front.back().faces;
+    if (simpler) front.push_back(point);
+    if (!within && (simpler || isWithin(point, limits))) {
       blocks = current;
       within = isWithin(point, limits);
     }

@@ -20,8 +20,9 @@ namespace storey::detail {
 /// - or makes one block of two neighbours, also where F stays as it is.
 /// Runs and lines with little to show are tried first; those that have seen clearly more than the
 /// cost are not tried.
-/// \param gap as in `CellEnergyOptions` \param cost in units of wall area
+/// \param gap as in `CellEnergyOptions` \param cost in units of wall area \param may_vanish whether
+/// nothing at all is an outcome, where nothing earns its cost
 void pruneOutlines(const LineArrangement& plan, double gap, double cost,
-                   std::vector<CellBlock>& blocks);
+                   std::vector<CellBlock>& blocks, bool may_vanish = true);
 
 }  // namespace storey::detail

@@ -22,12 +22,10 @@ struct SimplicityLimits {
   bool whole_front = false;   ///< go on to the simplest model, for the trade-off alone
 };
 
-/// Prunes the outlines at a rising cost of a face until the limits are kept, or one block with one
-/// outline is all there is.
-/// \param face_cost what the blocks were pruned with so far, > 0
-/// \param blocks simplified in place as far as the limits ask
-/// \return what was met on the way, from the given blocks on; each with fewer faces than the one
-/// before
+/// Prunes the outlines at a rising cost of a face until the limits are kept, or the cost is more
+/// than any two models differ by; there, all blocks are made one. \param face_cost what the blocks
+/// were pruned with so far, > 0 \param blocks simplified in place as far as the limits ask \return
+/// what was met on the way, from the given blocks on; each with fewer faces than the one before
 std::vector<OutlineTradeOff> simplifyOutlines(const LineArrangement& plan, double gap,
                                               double face_cost, const SimplicityLimits& limits,
                                               std::vector<CellBlock>& blocks);
