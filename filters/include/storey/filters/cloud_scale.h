@@ -30,11 +30,12 @@ CloudScale estimateCloudScale(const std::vector<Eigen::Vector3f>& positions, std
 /// Measures the scale of a cloud from 1500 neighbourhoods drawn at random.
 ///
 /// A neighbourhood is the k = 200 nearest positions (k = n/100 below 20,000, at least 20).
-/// The smallest eigenvalue l3 of its covariance about the mean estimates the variance: k l3 / (k -
-/// 3) (a plane has three parameters), times 1 + 2 l3 / r^2 for what the ball of radius r cuts off.
-/// Neighbourhoods of edges and trees have a larger l3. So the 25th percentile of l3 is a start,
-/// freed of the scatter of chi-square, and the noise is the mean over all that exceed it by no more
-/// than 2.5 standard deviations of that scatter. The density is the median of
+/// Its plane is that of least squares; the noise's variance v is that of the points within 2.5
+/// deviations of it, as the core of a normal distribution (tails and the panes of windows are
+/// others), times k / (k - 3) (a plane has three parameters), times 1 + 2 v / r^2 for what the ball
+/// of radius r cuts off. Neighbourhoods of edges and trees have a larger v. So the 25th percentile
+/// of v is a start, freed of the scatter of chi-square, and the noise is the mean over all that
+/// exceed it by no more than 2.5 standard deviations of that scatter. The density is the median of
 /// (k - 4/3) / (pi (r^2 - 2 noise^2)) over the flattest 40 %. Where 200 points are too few to see a
 /// plane (r < 8 noise), the cloud is thinned by 4 until they do.
 ///
