@@ -21,6 +21,7 @@
 namespace storey {
 namespace detail {
 
+constexpr double kModelLeastNoise = 1e-5;  // of the extent, where a cloud has none
 // Lines of slices scatter by less than this about their wall, and walls further apart differ.
 constexpr double kLetterToleranceInNoise = 1.5;
 // Two bins of the levels of `BuildingFloorplanExtraction`: how far its heights may be off.
@@ -87,7 +88,7 @@ bool LayerwiseMRFReconstruction<PointT>::build() {
   const CloudScale scale =
       noise_ > 0.0 ? CloudScale{noise_} : detail::scaleOfIndexed(*this->input_, *this->indices_);
   LayerwiseModelOptions options;
-  options.noise = std::max(scale.noise, detail::kBuildingLeastNoise * scale.extent);
+  options.noise = std::max(scale.noise, detail::kModelLeastNoise * scale.extent);
   options.dominant = options_;
   options.dominant.length_tolerance = detail::kLetterToleranceInNoise * options.noise;
   options.grid = grid_;
