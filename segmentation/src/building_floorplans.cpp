@@ -138,6 +138,8 @@ class Labeling {
   void label() {
     while (true) {
       result_.blocks = labelCells(result_.plan, evidence_, result_.levels, level_points_, energy_);
+      // Divided once they are simple: what noise adds to an outline is no reason to do without it.
+      pruneOutlines(result_.plan, energy_.gap, face_cost_, result_.blocks);
       divideTransitions(result_.plan, evidence_, energy_.gap, face_cost_, result_.blocks);
       pruneOutlines(result_.plan, energy_.gap, face_cost_, result_.blocks);
       result_.gap = energy_.gap;

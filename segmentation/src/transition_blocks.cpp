@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace storey::detail {
@@ -31,17 +30,13 @@ CellTerms termsOfPart(const LineArrangement& plan, const WallEvidence& evidence,
   return terms;
 }
 
-// Dividing block b at the bin that suits the labels of its neighbours best.
-struct Division {
-  std::size_t bin = 0;
-  double energy = std::numeric_limits<double>::infinity();  // of its bins with those labels
-};
-
-Division bestDivision(const LineArrangement& plan, const WallEvidence& evidence, double gap,
-                      const std::vector<CellBlock>& blocks, std::size_t b) {
+// The bin to divide block b at. Energies of single bins do not add up where the evidence of an edge
+// changes its sign, but they tell the place.
+std::size_t bestBin(const LineArrangement& plan, const WallEvidence& evidence, double gap,
+                    const std::vector<CellBlock>& blocks, std::size_t b) {
   const CellBlock& block = blocks[b];
   const std::size_t n = block.last_bin - block.first_bin;
-  std::vector<double> below(n + 1, 0.0);  // running sums over the bins
+  std::vector<double> below(n + 1, 0.0);  // running sums over the bins, with the neighbours' labels
   std::vector<double> above(n + 1, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t bin = block.first_bin + i;
@@ -49,27 +44,21 @@ Division bestDivision(const LineArrangement& plan, const WallEvidence& evidence,
     below[i + 1] = below[i] + energyOf(plan, terms, gap, blocks[b - 1].inside);
     above[i + 1] = above[i] + energyOf(plan, terms, gap, blocks[b + 1].inside);
   }
-  Division best;
-  for (std::size_t i = 0; i <= n; ++i) {
-    const double energy = below[i] + above[n] - above[i];
-    if (energy < best.energy) best = {block.first_bin + i, energy};
+  std::size_t best = 0;
+  for (std::size_t i = 1; i <= n; ++i) {
+    if (below[i] - above[i] < below[best] - above[best]) best = i;
   }
-  return best;
+  return block.first_bin + best;
 }
 
-void divide(const LineArrangement& plan, const WallEvidence& evidence, const Division& division,
-            double gap, std::vector<CellBlock>& blocks, std::size_t b) {
-  const CellBlock block = std::move(blocks[b]);
-  CellBlock& lower = blocks[b - 1];
-  CellBlock& upper = blocks[b + 1];
-  lower.terms.add(termsOfPart(plan, evidence, block, block.first_bin, division.bin));
-  upper.terms.add(termsOfPart(plan, evidence, block, division.bin, block.last_bin));
-  lower.last_bin = upper.first_bin = division.bin;
-  for (CellBlock* grown : {&lower, &upper}) {
-    grown->energy = energyOf(plan, grown->terms, gap, grown->inside);
-    grown->measureCoverage();
-  }
-  blocks.erase(blocks.begin() + static_cast<std::ptrdiff_t>(b));
+// A block with some bins of another.
+CellBlock grown(const LineArrangement& plan, double gap, const CellBlock& block,
+                const CellTerms& part) {
+  CellBlock result = block;
+  result.terms.add(part);
+  result.energy = energyOf(plan, result.terms, gap, result.inside);
+  result.measureCoverage();
+  return result;
 }
 
 }  // namespace
@@ -77,11 +66,21 @@ void divide(const LineArrangement& plan, const WallEvidence& evidence, const Div
 void divideTransitions(const LineArrangement& plan, const WallEvidence& evidence, double gap,
                        double cost, std::vector<CellBlock>& blocks) {
   for (std::size_t b = 1; b + 1 < blocks.size();) {
-    const Division division = bestDivision(plan, evidence, gap, blocks, b);
-    const double now = costOf(plan, {&blocks[b - 1], &blocks[b], &blocks[b + 1]});
-    const double saved = now - costOf(plan, {&blocks[b - 1], &blocks[b + 1]});
-    if (division.energy - blocks[b].energy < cost * saved) {
-      divide(plan, evidence, division, gap, blocks, b);
+    CellBlock& lower = blocks[b - 1];
+    CellBlock& block = blocks[b];
+    CellBlock& upper = blocks[b + 1];
+    const std::size_t bin = bestBin(plan, evidence, gap, blocks, b);
+    CellBlock below =
+        grown(plan, gap, lower, termsOfPart(plan, evidence, block, block.first_bin, bin));
+    CellBlock above =
+        grown(plan, gap, upper, termsOfPart(plan, evidence, block, bin, block.last_bin));
+    const double more = below.energy + above.energy - lower.energy - block.energy - upper.energy;
+    const double saved = costOf(plan, {&lower, &block, &upper}) - costOf(plan, {&below, &above});
+    if (more < cost * saved) {
+      below.last_bin = above.first_bin = bin;
+      lower = std::move(below);
+      upper = std::move(above);
+      blocks.erase(blocks.begin() + static_cast<std::ptrdiff_t>(b));
       b = std::max<std::size_t>(b, 2) - 1;
     } else {
       ++b;
