@@ -3,6 +3,7 @@
 
 #include <storey/surface/extrusion.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
@@ -78,10 +79,23 @@ void compare(const io::PolygonSoup& model, const ModelCheck& check, const io::Po
   if (!check.ok()) outcome.problem = check.problems.front();
 }
 
+/// The building as far as it can be known: nothing tells how far down a foot without points goes.
+std::vector<FloorplanLayer> knownPart(const std::vector<FloorplanLayer>& layers,
+                                      const synth::Defects& defects) {
+  const double low = layers.front().z_min;
+  const double foot = low + defects.missing_foot * (layers.back().z_max - low);
+  std::vector<FloorplanLayer> known;
+  for (FloorplanLayer layer : layers) {
+    layer.z_min = std::max(layer.z_min, foot);
+    if (layer.z_min < layer.z_max) known.push_back(std::move(layer));
+  }
+  return known;
+}
+
 Outcome performHere(const Experiment& experiment) {
   const synth::SamplingOptions& sampling = experiment.sampling;
   const std::vector<FloorplanLayer> layers = synth::makeBuilding(experiment.building).layers;
-  const PolyhedralModel truth = extrudeFloorplans(layers);
+  const PolyhedralModel truth = extrudeFloorplans(knownPart(layers, sampling.defects));
   const synth::AccuracyLimit limit =
       synth::cramerRaoLimit(layers, sampling.points, sampling.noise, sampling.faces);
   Outcome outcome;

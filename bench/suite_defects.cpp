@@ -18,7 +18,7 @@ constexpr const char* kDefectsText = R"(## One defect at a time
 Each level on %zu buildings, random:%llu and those that follow, %zu points. A refusal has IoU 0. Ratios are to the limit of
 the clean cloud with the same noise and points. Shares are of the surface (patches), the planes (walls), the height (foot),
 the walls' area (windows, 0.2 deep) or the points; there are twice as many points of ground as of trees; a falloff of 9 is 1/9
-of the density at the top.
+of the density at the top. Where the foot has no points, the truth begins above it.
 
 )";
 
