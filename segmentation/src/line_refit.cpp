@@ -9,9 +9,8 @@ namespace storey::detail {
 namespace {
 
 constexpr int kRounds = 2;
-constexpr double kGate = 4.0;          // noise deviations
-constexpr double kTukey = 6.0;         // noise deviations
-constexpr double kMinAgreement = 0.5;  // cosine of 60 degrees
+constexpr double kGate = 4.0;   // noise deviations
+constexpr double kTukey = 6.0;  // noise deviations
 constexpr double kMinPoints = 8.0;
 
 // A stretch of a line that bounds the inside.

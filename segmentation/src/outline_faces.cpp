@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/segmentation/detail/outline_faces.h>
+#include <storey/segmentation/detail/union_find.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace storey::detail {
 namespace {
@@ -16,32 +16,11 @@ int sideOf(const PlanEdge& edge, const std::vector<char>& inside) {
          int{inside[static_cast<std::size_t>(edge.ahead)]};
 }
 
-// Sets of numbers from 0 to n - 1 that are joined one by one; one number of each stands for it.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : root_(n) {
-    std::iota(root_.begin(), root_.end(), std::size_t{0});
-  }
-  void join(std::size_t a, std::size_t b) { root_[of(b)] = of(a); }
-  std::size_t of(std::size_t i) {
-    while (root_[i] != i) i = root_[i] = root_[root_[i]];
-    return i;
-  }
-  std::size_t count() const {
-    std::size_t sets = 0;
-    for (std::size_t i = 0; i < root_.size(); ++i) sets += root_[i] == i ? 1 : 0;
-    return sets;
-  }
-
- private:
-  std::vector<std::size_t> root_;
-};
-
 // Walls: a run may go on in several runs of the next block, and several in one.
 std::size_t countWalls(const std::vector<BlockOutline>& blocks) {
   std::size_t num_runs = 0;
   for (const BlockOutline& block : blocks) num_runs += block.runs->size();
-  DisjointSets walls(num_runs);
+  UnionFind<> walls(num_runs);
   std::size_t lower_id = 0;  // of the first run of the lower block
   for (std::size_t b = 1; b < blocks.size(); ++b) {
     const std::vector<OutlineRun>& lower = *blocks[b - 1].runs;
@@ -51,21 +30,23 @@ std::size_t countWalls(const std::vector<BlockOutline>& blocks) {
     for (std::size_t u = 0; u < upper.size(); ++u) {
       while (from < lower.size() && lower[from].last < upper[u].first) ++from;
       for (std::size_t l = from; l < lower.size() && lower[l].first <= upper[u].last; ++l) {
-        if (lower[l].side == upper[u].side) walls.join(lower_id + l, upper_id + u);
+        if (lower[l].side == upper[u].side) walls.unite(lower_id + l, upper_id + u);
       }
     }
     lower_id = upper_id;
   }
-  return walls.count();
+  std::size_t count = 0;
+  for (std::size_t r = 0; r < num_runs; ++r) count += walls.find(r) == r;
+  return count;
 }
 
 // The connected parts of the cells with equal marks.
-DisjointSets partsOf(const LineArrangement& plan, const std::vector<int>& marks) {
-  DisjointSets parts(marks.size());
+UnionFind<> partsOf(const LineArrangement& plan, const std::vector<int>& marks) {
+  UnionFind<> parts(marks.size());
   for (const PlanEdge& edge : plan.edges) {
     const auto a = static_cast<std::size_t>(edge.behind);
     const auto b = static_cast<std::size_t>(edge.ahead);
-    if (marks[a] != 0 && marks[a] == marks[b]) parts.join(a, b);
+    if (marks[a] != 0 && marks[a] == marks[b]) parts.unite(a, b);
   }
   return parts;
 }
@@ -79,22 +60,22 @@ std::size_t countCaps(const LineArrangement& plan, const std::vector<char>* lowe
     change[c] =
         (lower != nullptr ? int{(*lower)[c]} : 0) - (upper != nullptr ? int{(*upper)[c]} : 0);
   }
-  DisjointSets parts = partsOf(plan, change);
+  UnionFind<> parts = partsOf(plan, change);
   std::size_t count = 0;
-  for (std::size_t c = 0; c < change.size(); ++c) count += change[c] != 0 && parts.of(c) == c;
+  for (std::size_t c = 0; c < change.size(); ++c) count += change[c] != 0 && parts.find(c) == c;
   return count;
 }
 
 std::size_t countFloating(const LineArrangement& plan, const std::vector<char>& lower,
                           const std::vector<char>& upper) {
-  DisjointSets parts = partsOf(plan, {upper.begin(), upper.end()});
+  UnionFind<> parts = partsOf(plan, {upper.begin(), upper.end()});
   std::vector<char> rests(upper.size(), 0);
   for (std::size_t c = 0; c < upper.size(); ++c) {
-    if (upper[c] != 0 && lower[c] != 0) rests[parts.of(c)] = 1;
+    if (upper[c] != 0 && lower[c] != 0) rests[parts.find(c)] = 1;
   }
   std::size_t count = 0;
   for (std::size_t c = 0; c < upper.size(); ++c) {
-    count += upper[c] != 0 && parts.of(c) == c && rests[c] == 0;
+    count += upper[c] != 0 && parts.find(c) == c && rests[c] == 0;
   }
   return count;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/segmentation/detail/cell_partition.h>
 #include <storey/segmentation/detail/region_components.h>
+#include <storey/segmentation/detail/union_find.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -12,28 +13,6 @@ namespace {
 
 // Cells whose numbers differ by 3 in a coordinate are 2 sides = 1.15 radii apart at least.
 constexpr double kReach = 2.0;
-
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
-    }
-    return i;
-  }
-
-  void unite(std::size_t i, std::size_t j) {
-    const std::size_t a = find(i);
-    const std::size_t b = find(j);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 using Iterator = std::vector<std::size_t>::iterator;
 
@@ -167,7 +146,7 @@ class ComponentFinder {
   const std::vector<Eigen::Vector3d>& points_;
   const double squared_radius_;
   CellPartition partition_;
-  UnionFind sets_;
+  UnionFind<> sets_;
 };
 
 }  // namespace

@@ -10,7 +10,6 @@ namespace storey::detail {
 namespace {
 
 constexpr double kGate = 2.5;             // noise deviations
-constexpr double kMinAgreement = 0.5;     // cosine of 60 degrees
 constexpr double kBin = 3.0;              // noise deviations
 constexpr double kMaxBins = 300.0;        // the partition is quadratic in them
 constexpr double kMinPoints = 20.0;       // of an edge that takes part in the levels

@@ -10,8 +10,7 @@
 namespace storey::detail {
 namespace {
 
-constexpr double kGate = 3.0;          // noise deviations
-constexpr double kMinAgreement = 0.5;  // cosine of 60 degrees
+constexpr double kGate = 3.0;  // noise deviations
 
 bool isAt(const WallLine& line, const WallPoint& p, double margin) {
   if (p.z < line.z_min - margin || p.z > line.z_max + margin) return false;

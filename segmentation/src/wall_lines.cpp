@@ -26,7 +26,6 @@ constexpr double kNearDirection = 4.0 * M_PI / 180.0;  // rad
 constexpr double kOutweighs = 3.0;
 constexpr double kBeside = 0.25;        // points of the stronger line, of the weaker's support
 constexpr double kExplained = 2.5;      // noise deviations across a line
-constexpr double kMinAgreement = 0.5;   // cosine of 60 degrees
 constexpr double kSupportMargin = 5.0;  // noise deviations beyond the ends of a line
 constexpr double kLeftover = 0.8;       // of the support; a wall 2 deviations beside has 0.69
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/union_find.h>
 #include <storey/segmentation/detail/weak_parts.h>
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 
 namespace storey::detail {
 namespace {
@@ -51,30 +51,25 @@ void dropWeakParts(const LineArrangement& plan, double keep, std::vector<Floorpl
       cells_of.push_back(std::move(cells));
     }
   }
-  std::vector<std::size_t> root(parts.size());
-  std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto find = [&](std::size_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
+  UnionFind<> solids(parts.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (std::size_t j = i + 1; j < parts.size(); ++j) {
       if (parts[j].layer != parts[i].layer + 1) continue;
       std::vector<std::size_t> shared;
       std::set_intersection(cells_of[i].begin(), cells_of[i].end(), cells_of[j].begin(),
                             cells_of[j].end(), std::back_inserter(shared));
-      if (!shared.empty()) root[find(j)] = find(i);
+      if (!shared.empty()) solids.unite(i, j);
     }
   }
   std::vector<double> support(parts.size(), 0.0);
-  for (std::size_t i = 0; i < parts.size(); ++i) support[find(i)] += parts[i].support;
+  for (std::size_t i = 0; i < parts.size(); ++i) support[solids.find(i)] += parts[i].support;
   const double best = parts.empty() ? 0.0 : *std::max_element(support.begin(), support.end());
   std::vector<FloorplanLayer> kept;
   std::size_t i = 0;
   for (FloorplanLayer& layer : layers) {
     std::vector<FloorplanComponent> components;
     for (FloorplanComponent& component : layer.plan.components) {
-      if (support[find(i)] >= keep * best) components.push_back(std::move(component));
+      if (support[solids.find(i)] >= keep * best) components.push_back(std::move(component));
       ++i;
     }
     layer.plan.components = std::move(components);

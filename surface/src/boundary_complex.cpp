@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/union_find.h>
 #include <storey/surface/detail/boundary_complex.h>
-#include <storey/surface/detail/union_find.h>
 
 #include <algorithm>
 #include <array>
@@ -157,7 +157,7 @@ class Builder {
   }
 
   void numberShells() {
-    UnionFind sets(result_.elements.size());
+    UnionFind<int> sets(result_.elements.size());
     for (std::size_t d = 0; d < result_.numDarts(); ++d) {
       sets.unite(result_.element[d], result_.element[at(result_.twin[d])]);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/union_find.h>
 #include <storey/surface/detail/coplanar_regions.h>
-#include <storey/surface/detail/union_find.h>
 
 #include <algorithm>
 
@@ -152,7 +152,7 @@ class RegionFinder {
   const std::vector<FloorplanEdge>& sources_;
   std::int64_t strip_;
   const std::vector<char>& counts_;
-  UnionFind sets_;
+  UnionFind<int> sets_;
   std::vector<std::vector<int>> pieces_;  // half-edges of a region of walls, at its representative
 };
 

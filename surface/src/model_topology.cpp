@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/union_find.h>
 #include <storey/surface/detail/model_darts.h>
-#include <storey/surface/detail/union_find.h>
 
 #include <algorithm>
 #include <map>
@@ -123,7 +123,7 @@ void checkVertices(const TriangleTopology& surface, const ModelDarts& darts, Mod
 }
 
 void findShells(const PolyhedralModel& model, ModelDarts& darts, ModelCheck& check) {
-  UnionFind sets(model.faces.size());
+  UnionFind<int> sets(model.faces.size());
   for (std::size_t d = 0; d < darts.numDarts(); ++d) {
     if (darts.twin[d] >= 0) sets.unite(darts.face[d], darts.face[at(darts.twin[d])]);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/union_find.h>
 #include <storey/surface/detail/boundary_complex.h>
-#include <storey/surface/detail/union_find.h>
 
 #include <algorithm>
 
@@ -108,7 +108,7 @@ class PinchFinder {
 
   const SlabLabels& labels_;
   const BoundaryComplex& boundary_;
-  UnionFind sets_;  // of shells
+  UnionFind<int> sets_;  // of shells
   std::vector<Contact> contacts_;
 };
 

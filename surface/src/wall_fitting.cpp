@@ -2,7 +2,7 @@
 #include <pcl/console/print.h>
 #include <storey/surface/detail/wall_assignment.h>
 #include <storey/surface/detail/wall_corners.h>
-#include <storey/surface/detail/wall_relief.h>
+#include <storey/surface/detail/wall_panes.h>
 #include <storey/surface/floorplan_fitting.h>
 
 #include <algorithm>
@@ -33,12 +33,12 @@ struct Wall {
   double w = 0.0, s = 0.0, d = 0.0, ss = 0.0, sd = 0.0, dd = 0.0;
   std::size_t support = 0;
   std::vector<Eigen::Vector2d> points;  // along and across
-  detail::WallRelief relief;
+  detail::WallPanes panes;
 
   Eigen::Vector2d tangent() const { return {-normal.y(), normal.x()}; }
   double spread() const { return ss - s * s / w; }  // of the points along the wall
-  // Of the middle of the points. The relief counts the panes beyond the gate, the moments do not.
-  double across(double noise) const { return relief.in_use ? relief.offset * noise : d / w; }
+  // Of the middle of the points. Panes beyond the gate count there, the moments do not.
+  double across(double noise) const { return panes.in_use ? panes.offset * noise : d / w; }
   double residual(double slope) const {
     const double mean = d / w;
     const double variance = (dd - d * mean - slope * (sd - s * mean)) / w;
@@ -88,7 +88,7 @@ void collectPoints(const std::vector<FloorplanLayer>& layers, const FitPoints& p
   }
 }
 
-void findRelief(double noise, Walls& walls) {
+void findPanes(double noise, Walls& walls) {
   std::vector<Wall*> seen;
   std::vector<detail::ResidualHistogram> histograms;
   for (auto& [id, wall] : walls) {
@@ -97,15 +97,15 @@ void findRelief(double noise, Walls& walls) {
     histograms.emplace_back();
     for (const Eigen::Vector2d& point : wall.points) histograms.back().add(point.y() / noise);
   }
-  const std::vector<detail::WallRelief> reliefs = detail::fitRelief(histograms);
-  for (std::size_t k = 0; k < reliefs.size(); ++k) seen[k]->relief = reliefs[k];
+  const std::vector<detail::WallPanes> all_panes = detail::fitPanes(histograms);
+  for (std::size_t k = 0; k < all_panes.size(); ++k) seen[k]->panes = all_panes[k];
 }
 
-// Tukey's weights; where the wall has relief, one step of expectation and maximisation.
+// Tukey's weights; where the wall has panes, one step of expectation and maximisation.
 void sumMoments(double noise, Wall& wall) {
   for (const Eigen::Vector2d& point : wall.points) {
-    if (wall.relief.in_use) {
-      const auto expected = wall.relief.expected(point.y() / noise);
+    if (wall.panes.in_use) {
+      const auto expected = wall.panes.expected(point.y() / noise);
       wall.add(point.x(), expected.residual * noise, expected.weight);
       continue;
     }
@@ -117,9 +117,9 @@ void sumMoments(double noise, Wall& wall) {
 void rotateTo(Wall& wall, double angle) { wall.normal = {std::cos(angle), std::sin(angle)}; }
 
 void setDeviations(const Wall& wall, double noise, double slope, WallFit& fit) {
-  if (wall.relief.in_use) {
-    fit.angle_deviation = noise / std::sqrt(wall.relief.information * wall.spread() / wall.w);
-    fit.offset_deviation = noise * wall.relief.offset_deviation;
+  if (wall.panes.in_use) {
+    fit.angle_deviation = noise / std::sqrt(wall.panes.information * wall.spread() / wall.w);
+    fit.offset_deviation = noise * wall.panes.offset_deviation;
     return;
   }
   const double deviation = kTukeyDeviation * std::max(wall.residual(slope), 0.1 * noise);
@@ -141,7 +141,7 @@ std::map<int, WallFit> solve(Walls& walls, double noise) {
       setDeviations(wall, noise, slope, fit);
       const bool contradicts = std::abs(slope) > kSameDirection * fit.angle_deviation;
       if (fit.angle_deviation > kMaxAngleDeviation && !contradicts) slope = 0.0;
-      fit.residual = wall.relief.in_use ? wall.relief.deviation * noise : wall.residual(slope);
+      fit.residual = wall.panes.in_use ? wall.panes.deviation * noise : wall.residual(slope);
       const Eigen::Vector2d centre =
           wall.reference + (wall.s / wall.w) * wall.tangent() + wall.across(noise) * wall.normal;
       fit.normal = (wall.normal - slope * wall.tangent()).normalized();
@@ -234,7 +234,7 @@ std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPo
   for (int round = 0; round < kRounds; ++round) {
     Walls walls = wallsOf(layers);
     collectPoints(layers, points, options.noise, walls);
-    if (round > 0) findRelief(options.noise, walls);  // about lines that are nearly right
+    if (round > 0) findPanes(options.noise, walls);  // about lines that are nearly right
     for (auto& [id, wall] : walls) sumMoments(options.noise, wall);
     fits = solve(walls, options.noise);
     if (options.share_directions) shareDirections(walls, fits);

@@ -46,4 +46,8 @@ struct WallLine {
 /// A point votes for lines within this angle of its normal: three deviations of 15 degrees.
 constexpr double kVoteAngle = 0.7853981633974483;  // rad, 45 degrees
 
+/// Least cosine between the normals of a point and of the wall that it is given to: 60 degrees,
+/// four deviations of 15.
+constexpr double kMinAgreement = 0.5;
+
 }  // namespace storey::detail

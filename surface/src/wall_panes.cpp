@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <storey/surface/detail/wall_relief.h>
+#include <storey/surface/detail/wall_panes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ constexpr double kPriorPoints = 20.0;  // a wall with few has the share that all
 constexpr double kMinDeviation = 0.3;  // noise deviations
 constexpr double kConverged = 0.01;    // log-likelihood
 constexpr int kMaxIterations = 300;
-constexpr double kClear = 20.0;         // log-likelihood: relief that is really there,
+constexpr double kClear = 20.0;         // log-likelihood: panes that is really there,
 constexpr double kClearPerWall = 2.0;   // beyond what chance gives each wall
 constexpr double kRefuted = 5.0;        // log-likelihood: a wall that has its own scatter instead
 constexpr std::ptrdiff_t kBeyond = 20;  // bins each side of the gate, where points are not seen
@@ -32,14 +32,14 @@ struct Parts {
   double sum() const { return wall + pane + background; }
 };
 
-Parts partsAt(const WallRelief& relief, double u) {
-  const double scale = 1.0 / relief.deviation;
-  const double height = (1.0 - relief.background) * kInvSqrt2Pi * scale;
-  const double of_wall = (u - relief.offset) * scale;
-  const double of_pane = of_wall + relief.depth * scale;
-  return {height * (1.0 - relief.share) * std::exp(-0.5 * of_wall * of_wall),
-          relief.share > 0.0 ? height * relief.share * std::exp(-0.5 * of_pane * of_pane) : 0.0,
-          relief.background / (2.0 * Counts::kGate)};
+Parts partsAt(const WallPanes& panes, double u) {
+  const double scale = 1.0 / panes.deviation;
+  const double height = (1.0 - panes.background) * kInvSqrt2Pi * scale;
+  const double of_wall = (u - panes.offset) * scale;
+  const double of_pane = of_wall + panes.depth * scale;
+  return {height * (1.0 - panes.share) * std::exp(-0.5 * of_wall * of_wall),
+          panes.share > 0.0 ? height * panes.share * std::exp(-0.5 * of_pane * of_pane) : 0.0,
+          panes.background / (2.0 * Counts::kGate)};
 }
 
 // Expected numbers and moments of the points of each part, and the likelihood of those seen.
@@ -66,14 +66,14 @@ struct Expectation {
   }
 };
 
-Expectation expect(const Counts& histogram, const WallRelief& relief) {
+Expectation expect(const Counts& histogram, const WallPanes& panes) {
   Expectation sum;
   double seen = 0.0;
   constexpr auto kBins = static_cast<std::ptrdiff_t>(Counts::kBins);
   for (std::ptrdiff_t b = 0; b < kBins; ++b) {
     const double count = histogram.counts()[static_cast<std::size_t>(b)];
     const double u = Counts::middleOf(b);
-    const Parts parts = partsAt(relief, u);
+    const Parts parts = partsAt(panes, u);
     seen += parts.sum() * Counts::kWidth;
     if (count == 0.0) continue;
     sum.add(parts, u, count);
@@ -83,7 +83,7 @@ Expectation expect(const Counts& histogram, const WallRelief& relief) {
   // Points beyond the gate are as many as the model says.
   const auto addUnseen = [&](std::ptrdiff_t b) {
     const double u = Counts::middleOf(b);
-    Parts parts = partsAt(relief, u);
+    Parts parts = partsAt(panes, u);
     parts.background = 0.0;
     if (parts.sum() < kLeast) return;
     sum.add(parts, u, histogram.total() * parts.sum() * Counts::kWidth / seen);
@@ -96,25 +96,24 @@ Expectation expect(const Counts& histogram, const WallRelief& relief) {
 }
 
 // One normal over the background: offset, deviation and background by EM. \return its likelihood
-double fitNormal(const Counts& histogram, WallRelief& relief) {
-  relief = WallRelief();
-  relief.background = kStartBackground;
+double fitNormal(const Counts& histogram, WallPanes& panes) {
+  panes = WallPanes();
+  panes.background = kStartBackground;
   double before = -INFINITY;
   for (int i = 0; i < kMaxIterations; ++i) {
-    const Expectation sum = expect(histogram, relief);
+    const Expectation sum = expect(histogram, panes);
     if (sum.likelihood < before + kConverged) return sum.likelihood;
     before = sum.likelihood;
-    relief.offset = sum.offset(0.0);
-    relief.deviation =
-        std::max(kMinDeviation, std::sqrt(sum.squares(relief.offset, 0.0) / sum.wall));
-    relief.background = std::max(kLeast, sum.background / (sum.background + sum.wall));
+    panes.offset = sum.offset(0.0);
+    panes.deviation = std::max(kMinDeviation, std::sqrt(sum.squares(panes.offset, 0.0) / sum.wall));
+    panes.background = std::max(kLeast, sum.background / (sum.background + sum.wall));
   }
   return before;
 }
 
 // All walls with common depth and deviation.
 struct Building {
-  std::vector<WallRelief> walls;
+  std::vector<WallPanes> walls;
   std::vector<double> likelihoods;
 
   double likelihood() const {
@@ -130,7 +129,7 @@ void improve(const std::vector<Expectation>& sums, Building& building) {
   for (const Expectation& sum : sums) points += sum.wall + sum.pane, panes += sum.pane;
   const double common_share = panes / points;
   for (std::size_t k = 0; k < sums.size(); ++k) {
-    WallRelief& wall = building.walls[k];
+    WallPanes& wall = building.walls[k];
     wall.offset = sums[k].offset(wall.depth);
     wall.share = std::clamp(
         (sums[k].pane + kPriorPoints * common_share) / (sums[k].pane + sums[k].wall + kPriorPoints),
@@ -146,7 +145,7 @@ void improve(const std::vector<Expectation>& sums, Building& building) {
     squares += sums[k].squares(building.walls[k].offset, depth);
   }
   const double deviation = std::max(kMinDeviation, std::sqrt(squares / points));
-  for (WallRelief& wall : building.walls) wall.depth = depth, wall.deviation = deviation;
+  for (WallPanes& wall : building.walls) wall.depth = depth, wall.deviation = deviation;
 }
 
 Building fitBuilding(const std::vector<Counts>& histograms, Building building) {
@@ -165,11 +164,11 @@ Building fitBuilding(const std::vector<Counts>& histograms, Building building) {
   return building;
 }
 
-Building fitFrom(const std::vector<Counts>& histograms, const std::vector<WallRelief>& alone,
+Building fitFrom(const std::vector<Counts>& histograms, const std::vector<WallPanes>& alone,
                  double depth) {
   Building start;
   start.walls = alone;
-  for (WallRelief& wall : start.walls) {
+  for (WallPanes& wall : start.walls) {
     wall.share = kStartShare;
     wall.depth = depth;
     wall.offset += kStartShare * depth;
@@ -179,21 +178,21 @@ Building fitFrom(const std::vector<Counts>& histograms, const std::vector<WallRe
 }
 
 // Fisher's information on offset and share, from the points themselves.
-void setInformation(const Counts& histogram, WallRelief& relief) {
+void setInformation(const Counts& histogram, WallPanes& panes) {
   double offset = 0.0, share = 0.0, both = 0.0;
   for (std::size_t b = 0; b < Counts::kBins; ++b) {
-    const double u = Counts::middleOf(static_cast<std::ptrdiff_t>(b)) - relief.offset;
-    const Parts parts = partsAt(relief, u + relief.offset);
-    const double by_offset = (parts.wall * u + parts.pane * (u + relief.depth)) /
-                             (parts.sum() * relief.deviation * relief.deviation);
+    const double u = Counts::middleOf(static_cast<std::ptrdiff_t>(b)) - panes.offset;
+    const Parts parts = partsAt(panes, u + panes.offset);
+    const double by_offset = (parts.wall * u + parts.pane * (u + panes.depth)) /
+                             (parts.sum() * panes.deviation * panes.deviation);
     const double by_share =
-        (parts.pane / relief.share - parts.wall / (1.0 - relief.share)) / parts.sum();
+        (parts.pane / panes.share - parts.wall / (1.0 - panes.share)) / parts.sum();
     offset += histogram.counts()[b] * by_offset * by_offset;
     share += histogram.counts()[b] * by_share * by_share;
     both += histogram.counts()[b] * by_offset * by_share;
   }
-  relief.information = offset;
-  relief.offset_deviation = 1.0 / std::sqrt(offset - both * both / share);
+  panes.information = offset;
+  panes.offset_deviation = 1.0 / std::sqrt(offset - both * both / share);
 }
 
 }  // namespace
@@ -205,16 +204,16 @@ void ResidualHistogram::add(double residual) {
   total_ += 1.0;
 }
 
-WallRelief::Expected WallRelief::expected(double residual) const {
+WallPanes::Expected WallPanes::expected(double residual) const {
   const Parts parts = partsAt(*this, residual);
   const double own = parts.wall + parts.pane;
   if (!(own > 0.0)) return {0.0, residual};
   return {own / parts.sum(), residual + depth * parts.pane / own};
 }
 
-std::vector<WallRelief> fitRelief(const std::vector<ResidualHistogram>& walls) {
+std::vector<WallPanes> fitPanes(const std::vector<ResidualHistogram>& walls) {
   if (walls.empty()) return {};
-  std::vector<WallRelief> alone(walls.size());
+  std::vector<WallPanes> alone(walls.size());
   std::vector<double> likelihoods;
   for (std::size_t k = 0; k < walls.size(); ++k) {
     likelihoods.push_back(fitNormal(walls[k], alone[k]));

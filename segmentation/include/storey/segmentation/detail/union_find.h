@@ -6,16 +6,19 @@
 #include <numeric>
 #include <vector>
 
-namespace storey {
-namespace detail {
+namespace storey::detail {
 
 /// Disjoint sets of 0 ... n - 1. The representative of a set is its smallest member, so results
 /// do not depend on the order of the unions.
+/// \tparam Index the integer type that the caller numbers things with
+template <typename Index = std::size_t>
 class UnionFind {
  public:
-  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit UnionFind(std::size_t n) : parent_(n) {
+    std::iota(parent_.begin(), parent_.end(), Index{0});
+  }
 
-  int find(int i) {
+  Index find(Index i) {
     while (parent(i) != i) {
       parent(i) = parent(parent(i));
       i = parent(i);
@@ -23,16 +26,15 @@ class UnionFind {
     return i;
   }
 
-  void unite(int i, int j) {
+  void unite(Index i, Index j) {
     const auto [low, high] = std::minmax({find(i), find(j)});
     parent(high) = low;
   }
 
  private:
-  int& parent(int i) { return parent_[static_cast<std::size_t>(i)]; }
+  Index& parent(Index i) { return parent_[static_cast<std::size_t>(i)]; }
 
-  std::vector<int> parent_;
+  std::vector<Index> parent_;
 };
 
-}  // namespace detail
-}  // namespace storey
+}  // namespace storey::detail

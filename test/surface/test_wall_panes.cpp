@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <storey/surface/detail/wall_relief.h>
+#include <storey/surface/detail/wall_panes.h>
 #include <storey/surface/floorplan_fitting.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 using namespace storey;
 using namespace storey::test;
 using detail::ResidualHistogram;
-using detail::WallRelief;
+using detail::WallPanes;
 
 constexpr double kSigma = 0.1;
 
@@ -36,7 +36,7 @@ ResidualHistogram drawResiduals(std::size_t count, double offset, const Panes& p
   return histogram;
 }
 
-TEST(WallRelief, TheWallIsFoundBeforeItsPanes) {
+TEST(WallPanes, TheWallIsFoundBeforeItsPanes) {
   // Six walls of different sizes, offsets and shares, one without panes. The deviation that comes
   // with each offset is its own test in the calibration below; here four of them, and no more than
   // 3 / sqrt(n): Fisher's for a depth of 2 and a share of 0.2 gives 1.9.
@@ -48,10 +48,10 @@ TEST(WallRelief, TheWallIsFoundBeforeItsPanes) {
       histograms.push_back(drawResiduals(1000 * (k + 1), 0.1 * (static_cast<double>(k) - 2.5),
                                          {shares[k], depth, 0.05}, random));
     }
-    const std::vector<WallRelief> reliefs = detail::fitRelief(histograms);
+    const std::vector<WallPanes> reliefs = detail::fitPanes(histograms);
     ASSERT_EQ(reliefs.size(), 6U) << depth;
     for (std::size_t k = 0; k < 6; ++k) {
-      const WallRelief& relief = reliefs[k];
+      const WallPanes& relief = reliefs[k];
       EXPECT_TRUE(relief.in_use);
       EXPECT_NEAR(relief.offset, 0.1 * (static_cast<double>(k) - 2.5),
                   4.0 * relief.offset_deviation);
@@ -62,7 +62,7 @@ TEST(WallRelief, TheWallIsFoundBeforeItsPanes) {
   }
 }
 
-TEST(WallRelief, OneModeIsNotTakenForTwo) {
+TEST(WallPanes, OneModeIsNotTakenForTwo) {
   // Normals of any width, with and without heavy tails, on 100 buildings.
   for (unsigned draw = 0; draw < 100; ++draw) {
     std::mt19937 random(100 + draw);
@@ -70,11 +70,11 @@ TEST(WallRelief, OneModeIsNotTakenForTwo) {
     for (std::size_t k = 0; k < 8; ++k) {
       histograms.push_back(drawResiduals(200 << k, 0.0, {0.0, 0.0, draw % 2 ? 0.05 : 0.0}, random));
     }
-    EXPECT_TRUE(detail::fitRelief(histograms).empty()) << draw;
+    EXPECT_TRUE(detail::fitPanes(histograms).empty()) << draw;
   }
 }
 
-TEST(WallRelief, AWallThatIsOnlyRougherStaysWithOneMode) {
+TEST(WallPanes, AWallThatIsOnlyRougherStaysWithOneMode) {
   std::mt19937 random(6);
   std::vector<ResidualHistogram> histograms;
   for (int k = 0; k < 4; ++k) {
@@ -83,13 +83,13 @@ TEST(WallRelief, AWallThatIsOnlyRougherStaysWithOneMode) {
   std::normal_distribution<double> rough(0.0, 1.5);
   histograms.emplace_back();
   for (int i = 0; i < 10000; ++i) histograms.back().add(rough(random));
-  const std::vector<WallRelief> reliefs = detail::fitRelief(histograms);
+  const std::vector<WallPanes> reliefs = detail::fitPanes(histograms);
   ASSERT_EQ(reliefs.size(), 5U);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_TRUE(reliefs[k].in_use);
   EXPECT_FALSE(reliefs[4].in_use);
 }
 
-TEST(WallRelief, NoWallsHaveNone) { EXPECT_TRUE(detail::fitRelief({}).empty()); }
+TEST(WallPanes, NoWallsHaveNone) { EXPECT_TRUE(detail::fitPanes({}).empty()); }
 
 // Moves the points on squares of a raster inwards, `share` of the area.
 void setBack(double share, double depth, double pitch, FitPoints& points) {
@@ -105,7 +105,7 @@ void setBack(double share, double depth, double pitch, FitPoints& points) {
   }
 }
 
-TEST(WallRelief, TheStatedDeviationsAreTrueOfWallsWithWindows) {
+TEST(WallPanes, TheStatedDeviationsAreTrueOfWallsWithWindows) {
   // As FitWalls.TheStatedDeviationsAreTrue: of 2 x 4 errors of 100 clouds 95.45 % lie within two
   // deviations, give or take 3 x 0.9 % (800 errors, of which those of shared directions are alike).
   int within = 0;

@@ -32,7 +32,7 @@ class ResidualHistogram {
 /// have the density
 ///     (1 - background) [(1 - share) N(offset, deviation) + share N(offset - depth, deviation)]
 /// and, spread evenly over the gate, a background of strays and heavy tails. In noise deviations.
-struct WallRelief {
+struct WallPanes {
   double offset = 0.0;
   double share = 0.0;
   double depth = 0.0;  ///< negative: it stands out
@@ -53,6 +53,6 @@ struct WallRelief {
 /// deviation are common to all, offset, share and background are each wall's own. \return parallel
 /// to `walls`; empty if two modes do not describe the building decisively better than one normal a
 /// wall
-std::vector<WallRelief> fitRelief(const std::vector<ResidualHistogram>& walls);
+std::vector<WallPanes> fitPanes(const std::vector<ResidualHistogram>& walls);
 
 }  // namespace storey::detail
