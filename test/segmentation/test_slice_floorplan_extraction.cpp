@@ -308,14 +308,19 @@ TEST(SliceFloorplanUnderNoise, CornersAreAsGoodAsTheirLines) {
     options.noise = 0.1;
     options.normal_noise = 5.0 * M_PI / 180.0;
     options.seed = seed;
-    SliceFloorplanExtraction<pcl::PointNormal> extraction;
-    extraction.setInputCloud(wallCloud<pcl::PointNormal>({kL}, options));
-    Floorplan plan;
-    if (!extraction.extract(plan)) continue;
-    expectValid(plan);
-    if (plan.components.size() == 1 && sameCorners(plan.components[0].outer, kL, tolerance)) ++good;
+    const auto cloud = wallCloud<pcl::PointNormal>({kL}, options);
+    for (const float thickness : {1.0f, 0.0f}) {  // as it is, and projected onto its plane
+      for (pcl::PointNormal& p : *cloud) p.z *= thickness;
+      SliceFloorplanExtraction<pcl::PointNormal> extraction;
+      extraction.setInputCloud(cloud);
+      Floorplan plan;
+      if (!extraction.extract(plan)) continue;
+      expectValid(plan);
+      if (plan.components.size() != 1) continue;
+      if (sameCorners(plan.components[0].outer, kL, tolerance)) ++good;
+    }
   }
-  EXPECT_EQ(good, 20);
+  EXPECT_EQ(good, 40);
 }
 
 }  // namespace

@@ -59,7 +59,8 @@ class SliceFloorplanExtraction : public pcl::PCLBase<PointT> {
   void setDirections(const std::vector<Eigen::Vector3d>& directions) { directions_ = directions; }
   const std::vector<Eigen::Vector3d>& getDirections() const { return directions_; }
 
-  /// Standard deviation of the points across their walls; 0 (default): estimated from the input.
+  /// Standard deviation of the points across their walls; 0 (default): that of the points about the
+  /// segments fitted to their regions.
   void setNoise(double noise) { noise_ = noise; }
   double getNoise() const { return noise_; }
 
@@ -101,7 +102,9 @@ class SliceFloorplanExtraction : public pcl::PCLBase<PointT> {
   bool fail(const std::string& reason);
   bool parametersValid() const;
   bool growRegions();
-  void fitSegments(double noise);
+  void fitSegments();
+  double noiseOfSegments() const;
+  void keepLines(double noise);
   bool linkAndClose(double noise, Floorplan& floorplan);
 
   typename PointCloudN::ConstPtr normals_;

@@ -4,7 +4,6 @@
 #include <pcl/common/point_tests.h>
 #include <pcl/console/print.h>
 #include <storey/filters/detail/indices.h>
-#include <storey/segmentation/detail/indexed_scale.h>
 #include <storey/segmentation/dominant_direction_clustering.h>
 #include <storey/segmentation/dominant_direction_labeling.h>
 #include <storey/segmentation/edge_region_growing.h>
@@ -13,6 +12,8 @@
 #include <cmath>
 #include <limits>
 #include <pcl/impl/pcl_base.hpp>
+#include <utility>
+#include <vector>
 
 namespace storey {
 namespace detail {
@@ -21,7 +22,7 @@ constexpr double kSliceToleranceInNoise = 2.5;  // vertices nearer than this are
 constexpr double kSliceMinAreaInNoise = 10.0;   // side of the smallest component
 constexpr double kSliceMaxResidual = 3.0;       // noise deviations: more is not a line
 constexpr double kSlicePriorAngle = 0.02;       // rad: short segments take their label's direction
-constexpr double kSliceLeastNoise = 1e-5;       // of the extent, where a cloud has none
+constexpr double kSliceLeastNoise = 1e-5;       // of the longest wall, where a cloud has none
 constexpr std::size_t kSliceMinPoints = 5;
 
 }  // namespace detail
@@ -90,7 +91,7 @@ bool SliceFloorplanExtraction<PointT, NormalT>::growRegions() {
 }
 
 template <typename PointT, typename NormalT>
-void SliceFloorplanExtraction<PointT, NormalT>::fitSegments(double noise) {
+void SliceFloorplanExtraction<PointT, NormalT>::fitSegments() {
   segments_.clear();
   for (std::size_t r = 0; r < regions_.size(); ++r) {
     std::vector<Eigen::Vector2d> points;
@@ -115,13 +116,41 @@ void SliceFloorplanExtraction<PointT, NormalT>::fitSegments(double noise) {
     }
     if (points.size() < detail::kSliceMinPoints || !(outward.norm() > 0.0)) continue;
     const detail::LineSegment segment =
-        detail::fitTrimmedSegment(points, outward.normalized(), detail::kSlicePriorAngle, noise);
-    if (segment.length() < detail::kSliceToleranceInNoise * noise ||
-        segment.residual > detail::kSliceMaxResidual * noise) {
-      continue;
-    }
+        detail::fitTrimmedSegment(points, outward.normalized(), detail::kSlicePriorAngle, noise_);
     segments_.push_back(segment);
   }
+}
+
+// Half of the points lie in segments that scatter less. The slice itself tells no noise to a fit of
+// planes: all its points may have one height.
+template <typename PointT, typename NormalT>
+double SliceFloorplanExtraction<PointT, NormalT>::noiseOfSegments() const {
+  std::vector<std::pair<double, std::size_t>> residuals;
+  std::size_t points = 0;
+  double longest = 0.0;
+  for (const detail::LineSegment& segment : segments_) {
+    residuals.emplace_back(segment.residual, segment.support);
+    points += segment.support;
+    longest = std::max(longest, segment.length());
+  }
+  std::sort(residuals.begin(), residuals.end());
+  double noise = 0.0;
+  std::size_t below = 0;
+  for (const auto& [residual, support] : residuals) {
+    noise = residual;
+    below += support;
+    if (2 * below >= points) break;
+  }
+  return std::max(noise, detail::kSliceLeastNoise * longest);
+}
+
+template <typename PointT, typename NormalT>
+void SliceFloorplanExtraction<PointT, NormalT>::keepLines(double noise) {
+  const auto isBlob = [&](const detail::LineSegment& segment) {
+    return segment.length() < detail::kSliceToleranceInNoise * noise ||
+           segment.residual > detail::kSliceMaxResidual * noise;
+  };
+  segments_.erase(std::remove_if(segments_.begin(), segments_.end(), isBlob), segments_.end());
 }
 
 template <typename PointT, typename NormalT>
@@ -162,17 +191,15 @@ bool SliceFloorplanExtraction<PointT, NormalT>::extract(Floorplan& floorplan) {
     this->deinitCompute();
     return fail("bad parameter");
   }
-  const CloudScale scale =
-      noise_ > 0.0 ? CloudScale{noise_} : detail::scaleOfIndexed(*this->input_, *this->indices_);
-  // A perfect cloud has no noise, but the tolerances must not be zero.
-  const double noise = std::max(scale.noise, detail::kSliceLeastNoise * scale.extent);
   const bool own_regions = !has_regions_;
   const bool own_directions = directions_.empty();
   bool found = false;
   if (own_regions && !growRegions()) {
     fail("no edge regions");
   } else {
-    fitSegments(noise);
+    fitSegments();
+    const double noise = noise_ > 0.0 ? noise_ : noiseOfSegments();
+    keepLines(noise);
     if (segments_.size() < 2) {
       fail("fewer than two line segments");
     } else {
