@@ -1,5 +1,5 @@
-# Installs the build tree to a fresh prefix, builds a user's project against it, and runs it; then
-# compares its example with README.md.
+# Installs the build tree to a fresh prefix, builds a user's project and the examples against it, and
+# runs them; then compares the example of README.md with what was compiled.
 # cmake -DBUILD=... -DSOURCE=... -DWORK=... -P run.cmake
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -15,6 +15,18 @@ run(${CMAKE_COMMAND} -S ${SOURCE}/test/consumer -B ${WORK}/build -G Ninja
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/readme_example)
 run(${WORK}/build/foreign_point)
+
+run(${CMAKE_COMMAND} -S ${SOURCE}/apps/examples -B ${WORK}/examples -G Ninja
+    -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=${FLAGS} -Dstorey_ROOT=${WORK}/prefix)
+run(${CMAKE_COMMAND} --build ${WORK}/examples)
+set(programs ${WORK}/prefix/bin)
+if(EXISTS ${programs}/storey_synth)
+  run(${programs}/storey_synth two_towers -o ${WORK}/cloud.ply)
+  run(${WORK}/examples/planar_points ${WORK}/cloud.ply)
+  run(${WORK}/examples/five_classes ${WORK}/cloud.ply ${WORK}/model.vtk)
+  run(${WORK}/examples/floorplans ${WORK}/cloud.ply)
+  run(${WORK}/examples/own_point_type ${WORK}/cloud.ply)
+endif()
 
 file(READ ${SOURCE}/test/consumer/readme_example.cpp example)
 string(REGEX MATCH "// README begin\n(.*)// README end" found "${example}")
