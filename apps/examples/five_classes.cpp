@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The paper's chain by hand, class by class: planar points, dominant directions, and for each slice
-// along gravity normals and a floorplan; then the model. The cloud is upright, its normals point
-// outwards. (`LayerwiseFloorplanExtraction` does the middle part with all threads.)
+// The paper's chain by hand, class by class (doc/tutorial.md explains it): planar points, dominant
+// directions, and for each slice along gravity normals and a floorplan; then the model. The cloud
+// is upright, its normals point outwards. (`LayerwiseFloorplanExtraction` does the middle part with
+// all threads.)
 #include <pcl/io/auto_io.h>
 #include <pcl/io/vtk_io.h>
 #include <pcl/point_types.h>
@@ -59,7 +60,7 @@ int main(int argc, char** argv) {
   }
 
   storey::LayerwiseMRFReconstruction<Point> reconstruction;
-  reconstruction.setInputCloud(planar);
+  reconstruction.setInputCloud(cloud);
   reconstruction.setFloorplans(layers);
   pcl::PolygonMesh mesh;
   reconstruction.reconstruct(mesh);
