@@ -15,6 +15,7 @@
 #include "synth/accuracy_limit.h"
 #include "synth/buildings.h"
 #include "synth/cloud_writer.h"
+#include "synth/photos/photo_files.h"
 #include "synth/sampling.h"
 
 namespace {
@@ -40,6 +41,8 @@ struct Request {
   bool no_normals = false;
   bool double_positions = false;
   synth::SamplingOptions sampling;
+  std::string photos;
+  synth::PhotoOptions photo;
 };
 
 [[noreturn]] void failUsage(const std::string& reason) {
@@ -104,6 +107,20 @@ options::options_description defectOptions(Request& r) {
   return text;
 }
 
+options::options_description photoOptions(Request& r) {
+  options::options_description text("Photos (lengths in the building's units, before --scale)");
+  text.add_options()("photos", options::value(&r.photos),
+                     "folder for photos, their cameras and the true facades")(
+      "views", into(r.photo.views), "number of photos")(
+      "photo-width", into(r.photo.width), "pixels; the height is three quarters of it")(
+      "photo-pitch", into(r.photo.window_pitch), "from one window to the next in the photos")(
+      "recess", into(r.photo.recess), "depth of these windows; 0: they are painted")(
+      "occluders", into(r.photo.occluders), "number of poles, trees and cars")(
+      "exposure", into(r.photo.exposure), "photos are up to this share too dark or too bright")(
+      "pixel-noise", into(r.photo.pixel_noise), "standard deviation, grey levels");
+  return text;
+}
+
 Eigen::Vector3d parseOffset(const std::string& text) {
   Eigen::Vector3d offset;
   int end = 0;
@@ -133,7 +150,7 @@ bool parse(int argc, char** argv, Request& r) {
   options::options_description visible(
       "storey_synth NAME -o CLOUD.ply [--truth MODEL.ply] [options]\n"
       "A point cloud of a building whose true model is known");
-  visible.add(mainOptions(r)).add(poseOptions(r)).add(defectOptions(r));
+  visible.add(mainOptions(r)).add(poseOptions(r)).add(defectOptions(r)).add(photoOptions(r));
   visible.add_options()("help,h", "this text")("list", "the names of buildings");
   options::options_description all;
   all.add(visible).add_options()("name", options::value(&r.name));
@@ -170,6 +187,15 @@ void completeSampling(const synth::Building& building, Request& r) {
   sampling.pose.yaw = r.yaw_degrees * kDegree;
   sampling.pose.tilt = r.tilt_degrees * kDegree;
   sampling.pose.offset = parseOffset(r.offset);
+  r.photo.seed = sampling.seed;
+  constexpr int kMaxViews = 10000;
+  constexpr int kMaxWidth = 20000;
+  const synth::PhotoOptions& photo = r.photo;
+  if (photo.views < 1 || photo.views > kMaxViews || photo.width < 16 || photo.width > kMaxWidth ||
+      !(photo.window_pitch > 0.0) || !(photo.recess >= 0.0) || photo.occluders < 0 ||
+      !(photo.exposure >= 0.0) || !(photo.pixel_noise >= 0.0)) {
+    failUsage("an option of the photos is out of its range");
+  }
 }
 
 void writeTruth(const std::string& path, io::PolygonSoup soup, const synth::Pose& pose) {
@@ -204,6 +230,9 @@ int run(int argc, char** argv) {
   const storey::PolyhedralModel model = storey::extrudeFloorplans(building.layers);
   for (const std::string& path : request.truths) {
     writeTruth(path, io::toPolygons(model), sampling.pose);
+  }
+  if (!request.photos.empty()) {
+    synth::writePhotos(request.photos, model, request.photo, sampling.pose);
   }
   const synth::AccuracyLimit limit =
       synth::cramerRaoLimit(building.layers, sampling.points, sampling.noise, sampling.faces);

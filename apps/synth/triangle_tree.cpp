@@ -12,6 +12,43 @@ namespace {
 
 constexpr std::size_t kLeafSize = 4;
 
+/// Where a ray enters a box; infinite if it misses it.
+double entry(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from,
+             const Eigen::Vector3d& direction) {
+  double enter = 0.0;
+  double leave = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (direction[axis] == 0.0) {
+      const bool beside = from[axis] < box.min()[axis] || from[axis] > box.max()[axis];
+      if (beside) return std::numeric_limits<double>::infinity();
+      continue;
+    }
+    const double a = (box.min()[axis] - from[axis]) / direction[axis];
+    const double b = (box.max()[axis] - from[axis]) / direction[axis];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  return enter <= leave ? enter : std::numeric_limits<double>::infinity();
+}
+
+/// Where a ray meets a triangle (Moeller and Trumbore); infinite if it does not.
+double meeting(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
+               const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  const Eigen::Vector3d ab = b - a;
+  const Eigen::Vector3d ac = c - a;
+  const Eigen::Vector3d across = direction.cross(ac);
+  const double volume = ab.dot(across);
+  if (volume == 0.0) return infinite;
+  const Eigen::Vector3d from_a = from - a;
+  const double u = from_a.dot(across) / volume;
+  const Eigen::Vector3d turned = from_a.cross(ab);
+  const double v = direction.dot(turned) / volume;
+  if (!(u >= 0.0 && v >= 0.0 && u + v <= 1.0)) return infinite;
+  const double distance = ac.dot(turned) / volume;
+  return distance > 0.0 ? distance : infinite;
+}
+
 }  // namespace
 
 TriangleTree::TriangleTree(TriangleMesh mesh) : mesh_(std::move(mesh)) {
@@ -90,6 +127,37 @@ std::vector<double> TriangleTree::distances(const std::vector<Eigen::Vector3d>& 
     result[static_cast<std::size_t>(i)] = distance(points[static_cast<std::size_t>(i)]);
   }
   return result;
+}
+
+void TriangleTree::search(std::size_t node, const Eigen::Vector3d& from,
+                          const Eigen::Vector3d& direction, Hit& best) const {
+  const Node& here = nodes_[node];
+  if (!(entry(here.box, from, direction) < best.distance)) {
+    return;
+  }
+  if (here.right > 0) {
+    search(node + 1, from, direction, best);
+    search(here.right, from, direction, best);
+    return;
+  }
+  for (std::size_t i = here.first; i < here.last; ++i) {
+    const std::size_t t = order_[i];
+    const double distance =
+        meeting(from, direction, mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2));
+    if (distance < best.distance) best = {t, distance};
+  }
+}
+
+std::optional<TriangleTree::Hit> TriangleTree::firstHit(const Eigen::Vector3d& from,
+                                                        const Eigen::Vector3d& direction) const {
+  Hit best;
+  if (!nodes_.empty()) {
+    search(0, from, direction, best);
+  }
+  if (best.distance == std::numeric_limits<double>::infinity()) {
+    return std::nullopt;
+  }
+  return best;
 }
 
 }  // namespace storey::synth

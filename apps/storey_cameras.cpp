@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Prints the cameras of photos, and checks them against a cloud.
+#include <algorithm>
+#include <boost/program_options.hpp>
+#include <cstdio>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "cameras/agreement.h"
+#include "cameras/overlay.h"
+#include "io/cameras/camera_set.h"
+#include "io/cloud_reader.h"
+#include "io/failure.h"
+#include "io/images/image_files.h"
+#include "io/output_file.h"
+
+namespace {
+
+namespace cameras = storey::cameras;
+namespace io = storey::io;
+namespace options = boost::program_options;
+
+// Right cameras reach 0.9 and more; light above and dark below alone make 0.6.
+constexpr double kClearGain = 0.2;         // of agreement: a mistake was undone
+constexpr double kLeastAgreement = 0.75;   // below, the cameras are of something else
+constexpr double kLeastOfOne = 0.5;        // of one photo, which may hold little but sky and trees
+constexpr std::size_t kMaxPoints = 50000;  // of the cloud that are looked at, evenly spread
+
+struct Request {
+  std::string cameras;
+  std::string images;
+  std::string cloud;
+  std::string output;
+};
+
+[[noreturn]] void failUsage(const std::string& reason) {
+  throw io::Failure(io::Usage, "", reason, "see storey_cameras --help");
+}
+
+bool parse(int argc, char** argv, Request& r) {
+  options::options_description visible(
+      "storey_cameras CAMERAS [IMAGES] [--cloud CLOUD] [-o DIR]\n"
+      "Prints the cameras of a COLMAP, Bundler or PMVS folder, in the world's unit and pixels, and "
+      "checks them:\nthe points of a cloud must have the same brightness in all photos");
+  visible.add_options()("cloud", options::value(&r.cloud),
+                        "cloud (.ply, .pcd) to check them against; needs IMAGES")(
+      "output,o", options::value(&r.output),
+      "folder for a picture of each photo with the cloud's points on it; needs --cloud")(
+      "help,h", "this text");
+  options::options_description all;
+  all.add(visible).add_options()("cameras", options::value(&r.cameras))("images",
+                                                                        options::value(&r.images));
+  options::positional_options_description positional;
+  positional.add("cameras", 1).add("images", 1);
+  options::variables_map given;
+  try {
+    options::store(
+        options::command_line_parser(argc, argv).options(all).positional(positional).run(), given);
+    options::notify(given);
+  } catch (const options::error& error) {
+    failUsage(error.what());
+  }
+  if (given.count("help") > 0) {
+    std::cout << visible;
+    return false;
+  }
+  if (r.cameras.empty()) failUsage("a file or folder of cameras is needed");
+  if (!r.cloud.empty() && r.images.empty()) failUsage("--cloud needs the folder of the images");
+  if (!r.output.empty() && r.cloud.empty()) failUsage("-o needs --cloud");
+  return true;
+}
+
+void printCameras(const io::CameraSet& set) {
+  std::printf("%s: %zu photos, %zu points\n", set.format.c_str(), set.photos.size(),
+              set.points.size());
+  std::printf("%5s %12s %18s %18s %36s  %s\n", "photo", "pixels", "focal length", "principal point",
+              "centre", "name");
+  for (const io::Photo& photo : set.photos) {
+    const storey::Camera& c = photo.camera;
+    const Eigen::Vector3d center = c.center();
+    std::printf("%5zu %5d x %4d %9.2f %8.2f %9.2f %8.2f %12.6g %11.6g %11.6g  %s\n", photo.index,
+                c.width, c.height, c.focal.x(), c.focal.y(), c.principal.x(), c.principal.y(),
+                center.x(), center.y(), center.z(), io::printable(photo.name, 60).c_str());
+  }
+}
+
+cameras::CloudPoints readPoints(const std::string& path) {
+  const io::LoadedCloud loaded = io::readCloud(path);
+  const std::size_t step = (loaded.cloud->size() + kMaxPoints - 1) / kMaxPoints;
+  cameras::CloudPoints points;
+  for (std::size_t i = 0; i < loaded.cloud->size(); i += step) {
+    const pcl::PointNormal& p = (*loaded.cloud)[i];
+    points.positions.push_back(p.getVector3fMap().cast<double>() + loaded.offset);
+    if (loaded.has_normals) points.normals.push_back(p.getNormalVector3fMap().cast<double>());
+  }
+  return points;
+}
+
+void printAgreement(const io::CameraSet& set,
+                    const std::vector<cameras::PhotoAgreement>& agreement) {
+  std::printf("\n%5s %8s %10s\n", "photo", "points", "agreement");
+  for (std::size_t k = 0; k < agreement.size(); ++k) {
+    const bool weak = agreement[k].correlation < kLeastOfOne;
+    std::printf("%5zu %8zu %10.3f%s\n", set.photos[k].index, agreement[k].points,
+                agreement[k].correlation, weak ? "  disagrees with the others" : "");
+  }
+  std::printf("agreement of all: %.3f\n", cameras::meanCorrelation(agreement));
+}
+
+void writePictures(const std::string& folder, const cameras::CloudPoints& points,
+                   const io::CameraSet& set, const std::vector<storey::RgbImage>& images) {
+  const io::OutputDirectory directory(folder);
+  for (std::size_t k = 0; k < images.size(); ++k) {
+    char name[32];
+    std::snprintf(name, sizeof name, "photo_%04zu.png", set.photos[k].index);
+    io::writePng(directory.file(name),
+                 cameras::drawPoints(points, set.photos[k].camera, images[k]));
+  }
+}
+
+/// Ends in a Failure if the cameras do not fit the cloud.
+void check(const Request& request, const io::CameraSet& set) {
+  const cameras::CloudPoints points = readPoints(request.cloud);
+  std::vector<storey::Camera> views;
+  std::vector<storey::RgbImage> images;
+  for (const io::Photo& photo : set.photos) {
+    views.push_back(photo.camera);
+    images.push_back(io::readImage(photo));
+  }
+  const auto agreement = cameras::measureAgreement(points, views, images);
+  printAgreement(set, agreement);
+  if (!request.output.empty()) writePictures(request.output, points, set, images);
+
+  const double as_given = cameras::meanCorrelation(agreement);
+  const cameras::Suspicion best = cameras::suspectMistakes(points, views, images).front();
+  if (best.correlation > as_given + kClearGain) {
+    throw io::Failure(io::BadInput, request.cameras, best.mistake,
+                      "that undone, the photos agree by " + std::to_string(best.correlation) +
+                          " instead of " + std::to_string(as_given));
+  }
+  if (as_given < kLeastAgreement) {
+    throw io::Failure(io::BadInput, request.cameras, "do not fit the cloud",
+                      "give the cloud and the cameras of the same reconstruction");
+  }
+}
+
+int run(int argc, char** argv) {
+  Request request;
+  if (!parse(argc, argv, request)) return io::Ok;
+  io::CameraSet set = io::readCameras(request.cameras);
+  if (!request.images.empty()) io::findImages(request.images, set);
+  printCameras(set);
+  if (!request.cloud.empty()) check(request, set);
+  return io::Ok;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return io::runMain("storey_cameras", [&] { return run(argc, argv); });
+}
