@@ -4,7 +4,6 @@
 #include <storey/filters/cloud_scale.h>
 #include <storey/filters/detail/wall_relief.h>
 
-#include <boost/program_options.hpp>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -12,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/command_line.h"
 #include "io/cloud_reader.h"
 #include "io/failure.h"
 #include "io/model_io.h"
@@ -22,7 +22,7 @@
 namespace {
 
 namespace io = storey::io;
-namespace options = boost::program_options;
+namespace cli = storey::cli;
 namespace synth = storey::synth;
 using Json = nlohmann::ordered_json;
 
@@ -30,49 +30,30 @@ struct Request {
   std::string model;
   std::string truth;
   std::string cloud;
-  std::string up;
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();  // zero: from the model's roofs
   double sigma = 0.0;
   bool json = false;
 };
 
-[[noreturn]] void failUsage(const std::string& reason) {
-  throw io::Failure(io::Usage, "", reason, "see storey_evaluate --help");
-}
-
 bool parse(int argc, char** argv, Request& r) {
-  options::options_description visible(
-      "storey_evaluate MODEL TRUTH [--json]\n"
-      "storey_evaluate MODEL --cloud CLOUD [--sigma S] [--up X,Y,Z] [--json]\n"
-      "Measures a closed model (.ply, .obj) against the true one, or against a cloud.\n"
-      "Lengths are in the unit of the files");
-  visible.add_options()("cloud", options::value(&r.cloud), "cloud (.ply, .pcd) to compare with")(
-      "sigma", options::value(&r.sigma)->default_value(0.0),
-      "deviation of the points about their walls; 0: estimated, relief included")(
-      "up", options::value(&r.up), "the vertical, X,Y,Z [from the model's roofs, else 0,0,1]")(
-      "json", options::bool_switch(&r.json), "print JSON")("help,h", "this text");
-  options::options_description all;
-  all.add(visible).add_options()("model", options::value(&r.model))("against",
-                                                                    options::value(&r.truth));
-  options::positional_options_description positional;
-  positional.add("model", 1).add("against", 1);
-  options::variables_map given;
-  try {
-    options::store(
-        options::command_line_parser(argc, argv).options(all).positional(positional).run(), given);
-    options::notify(given);
-  } catch (const options::error& error) {
-    failUsage(error.what());
-  }
-  if (given.count("help") > 0) {
-    std::cout << visible;
-    return false;
-  }
+  cli::CommandLine line(
+      "storey_evaluate",
+      {"MODEL TRUTH [--json]", "MODEL --cloud CLOUD [--sigma S] [--up X,Y,Z] [--json]"},
+      "Measures a closed model against the true one, or against a cloud.\n"
+      "Lengths are in the unit of the files.");
+  line.argument("model", r.model, "the model (.ply, .obj)");
+  line.argument("truth", r.truth, "the true one");
+  line.text("cloud", r.cloud, "cloud (.ply, .pcd) to compare with");
+  line.number("sigma", r.sigma, cli::kNonNegative,
+              "deviation of the points about their walls, length [0 = estimated, relief included]");
+  line.vector("up", r.up, "the vertical [from the model's roofs, else 0,0,1]");
+  line.flag("json", r.json, "print JSON");
+  if (!line.parse(argc, argv)) return false;
   if (r.model.empty() || r.truth.empty() == r.cloud.empty()) {
-    failUsage("a model and either the true model or --cloud are needed");
+    line.fail("a model and either the true model or --cloud are needed");
   }
-  if (!(r.sigma >= 0.0 && std::isfinite(r.sigma))) {
-    failUsage("--sigma must not be negative");
-  }
+  if (line.given("up") && r.up.isZero()) line.fail("--up is zero, expected a direction");
+  r.up.normalize();  // zero, where it is not given, stays zero
   return true;
 }
 
@@ -162,16 +143,6 @@ void report(const T& result, bool json) {
   }
 }
 
-Eigen::Vector3d parseUp(const std::string& text) {
-  Eigen::Vector3d up;
-  int end = 0;
-  const int read = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &up[0], &up[1], &up[2], &end);
-  if (read != 3 || static_cast<std::size_t>(end) != text.size() || !up.allFinite() || up.isZero()) {
-    failUsage("--up is '" + text + "', expected three numbers X,Y,Z");
-  }
-  return up.normalized();
-}
-
 // Deviation of the points about their walls, relief included, as the reconstruction sees it.
 double wallNoise(const pcl::PointCloud<pcl::PointNormal>& cloud, const storey::CloudScale& scale,
                  const Eigen::Vector3d& up) {
@@ -190,7 +161,7 @@ double wallNoise(const pcl::PointCloud<pcl::PointNormal>& cloud, const storey::C
 
 synth::CloudEvaluation againstCloud(const Request& request, io::PolygonSoup model) {
   const io::LoadedCloud loaded = io::readCloud(request.cloud);
-  const Eigen::Vector3d up = request.up.empty() ? synth::upOfModel(model) : parseUp(request.up);
+  const Eigen::Vector3d up = request.up.isZero() ? synth::upOfModel(model) : request.up;
   if (!loaded.has_normals) {
     storey::estimateNormals(*loaded.cloud);
   }
@@ -227,5 +198,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return io::runMain("storey_evaluate", [&] { return run(argc, argv); });
+  return cli::runMain("storey_evaluate", [&] { return run(argc, argv); });
 }

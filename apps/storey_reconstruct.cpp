@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // storey_reconstruct CLOUD -o DIRECTORY: a small closed model of a building from its point cloud.
-#include <pcl/console/print.h>
-
 #include <cstdio>
 
+#include "cli/command_line.h"
 #include "io/failure.h"
 #include "io/model_io.h"
 #include "io/output_file.h"
@@ -21,8 +20,6 @@ int run(int argc, char** argv) {
   const auto progress = [&](const std::string& line) {
     if (!options.quiet) std::fprintf(stderr, "%s\n", line.c_str());
   };
-  // What the libraries would print belongs into our one line on stderr.
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
 
   const Result result = reconstruct(options, progress);
   const io::OutputDirectory directory(options.output_directory);
@@ -43,6 +40,6 @@ int run(int argc, char** argv) {
 }  // namespace storey::reconstruct
 
 int main(int argc, char** argv) {
-  return storey::io::runMain("storey_reconstruct",
-                             [&] { return storey::reconstruct::run(argc, argv); });
+  return storey::cli::runMain("storey_reconstruct",
+                              [&] { return storey::reconstruct::run(argc, argv); });
 }

@@ -2,14 +2,13 @@
 // Makes a building whose true model is known, and a point cloud of it.
 #include <storey/surface/extrusion.h>
 
-#include <boost/program_options.hpp>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
-#include <sstream>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/command_line.h"
 #include "io/failure.h"
 #include "io/model_io.h"
 #include "synth/accuracy_limit.h"
@@ -20,8 +19,8 @@
 
 namespace {
 
+namespace cli = storey::cli;
 namespace io = storey::io;
-namespace options = boost::program_options;
 namespace synth = storey::synth;
 
 constexpr double kDegree = M_PI / 180.0;
@@ -31,8 +30,6 @@ struct Request {
   std::string name;
   std::string output;
   std::vector<std::string> truths;
-  std::string faces = "walls";
-  std::string offset = "0,0,0";
   std::size_t points = 0;
   double normal_noise_degrees = 15.0;
   double yaw_degrees = 0.0;
@@ -40,103 +37,91 @@ struct Request {
   double side_half_angle_degrees = 35.0;
   bool no_normals = false;
   bool double_positions = false;
+  bool list = false;
   synth::SamplingOptions sampling;
   std::string photos;
   synth::PhotoOptions photo;
 };
 
-[[noreturn]] void failUsage(const std::string& reason) {
-  throw io::Failure(io::Usage, "", reason, "see storey_synth --help");
+void declareCloud(cli::CommandLine& line, Request& r) {
+  using synth::SampledFaces;
+  line.group("cloud (lengths in the building's units, before --scale)");
+  line.text("output,o", r.output, "cloud to write, binary PLY");
+  line.texts("truth", r.truths,
+             "true model to write, .ply or .obj, in the cloud's coordinates; may be repeated");
+  line.whole("points", r.points, std::size_t{0},
+             "points drawn on the building, before anything is missing [0 = 200000, syn1-3 the "
+             "paper's]");
+  line.number("noise", r.sampling.noise, cli::kNonNegative,
+              "standard deviation of each coordinate, length");
+  line.number("normal-noise", r.normal_noise_degrees, cli::kNonNegative,
+              "standard deviation of the normals, degrees");
+  line.choice<SampledFaces>("faces", r.sampling.faces,
+                            {{"walls", SampledFaces::Walls},
+                             {"roofs", SampledFaces::WallsAndRoofs},
+                             {"all", SampledFaces::All}},
+                            "what is sampled: walls, roofs (and walls), all");
+  line.whole("seed", r.sampling.seed, decltype(r.sampling.seed){0},
+             "of all random choices but the building's");
+  line.flag("no-normals", r.no_normals, "leave the normals out");
+  line.flag("double", r.double_positions,
+            "write double coordinates; done anyway where float is too coarse");
 }
 
-template <typename T>
-options::typed_value<T>* into(T& value) {
-  std::ostringstream text;  // 0.1, where the library would print 0.10000000000000001
-  text << value;
-  return options::value<T>(&value)->default_value(value, text.str());
+void declarePose(cli::CommandLine& line, Request& r) {
+  line.group("pose");
+  line.number("yaw", r.yaw_degrees, cli::kAnyNumber, "turn about the vertical, degrees");
+  line.number("tilt", r.tilt_degrees, cli::kAnyNumber, "away from the vertical, degrees");
+  line.number("scale", r.sampling.pose.scale, cli::kPositive,
+              "factor on all lengths, noise included");
+  line.vector("offset", r.sampling.pose.offset, "added last [0,0,0]");
 }
 
-options::options_description mainOptions(Request& r) {
-  options::options_description text("Cloud (lengths in the building's units, before --scale)");
-  text.add_options()("output,o", options::value(&r.output), "cloud to write, binary PLY")(
-      "truth", options::value(&r.truths)->composing(),
-      "true model to write, .ply or .obj, in the cloud's coordinates; may be repeated")(
-      "points", options::value(&r.points),
-      "points drawn on the building, before anything is missing [200000, syn1-3 the paper's]")(
-      "noise", into(r.sampling.noise), "standard deviation of each coordinate")(
-      "normal-noise", into(r.normal_noise_degrees), "standard deviation of the normals, degrees")(
-      "faces", into(r.faces), "what is sampled: walls, roofs (and walls), all")(
-      "seed", into(r.sampling.seed), "of all random choices but the building's")(
-      "no-normals", options::bool_switch(&r.no_normals), "leave the normals out")(
-      "double", options::bool_switch(&r.double_positions),
-      "write double coordinates; done anyway where float is too coarse");
-  return text;
-}
-
-options::options_description poseOptions(Request& r) {
-  options::options_description text("Pose");
-  text.add_options()("yaw", into(r.yaw_degrees), "turn about the vertical, degrees")(
-      "tilt", into(r.tilt_degrees), "away from the vertical, degrees")(
-      "scale", into(r.sampling.pose.scale), "factor on all lengths, noise included")(
-      "offset", into(r.offset), "X,Y,Z added last");
-  return text;
-}
-
-options::options_description defectOptions(Request& r) {
+void declareDefects(cli::CommandLine& line, Request& r) {
   synth::Defects& d = r.sampling.defects;
-  options::options_description text("Defects (shares are between 0 and 1)");
-  text.add_options()("patches", into(d.missing_patches), "share hidden by balls")(
-      "patch-radius", into(d.patch_radius), "radius of these balls")(
-      "missing-walls", into(d.missing_walls), "share of the walls without points, at least one")(
-      "missing-side", into(d.missing_side), "share of one side, from its left end, without points")(
-      "side-angle", into(r.side_half_angle_degrees),
-      "walls whose normals are this near belong to that side, degrees")(
-      "missing-foot", into(d.missing_foot), "share of the height without points, from below")(
-      "falloff", into(d.density_falloff), "density at the foot / at the top, >= 1")(
-      "heavy-tails", into(d.heavy_tails), "share of points with more noise")(
-      "tail-factor", into(d.tail_factor), "how much more")(
-      "windows", into(d.windows), "share of the wall area that is recessed")(
-      "window-depth", into(d.window_depth), "of the recess")("window-pitch", into(d.window_pitch),
-                                                             "from window to window")(
-      "flipped", into(d.flipped_normals), "share of normals that point inwards")(
-      "outliers", into(d.outliers), "uniform outliers, as a share of --points")(
-      "ground", into(d.ground), "points of the ground, as a share of --points")(
-      "relief", into(d.ground_relief), "amplitude of the ground's waves")(
-      "trees", into(d.trees), "points of trees, as a share of --points")(
-      "tree-count", into(d.tree_count), "number of trees");
-  return text;
+  line.group("defects (shares are between 0 and 1)");
+  const auto share = [&line](const char* name, double& value, const char* text) {
+    line.number(name, value, cli::kShare, text);
+  };
+  const auto size = [&line](const char* name, double& value, const char* text) {
+    line.number(name, value, cli::kNonNegative, text);
+  };
+  share("patches", d.missing_patches, "share hidden by balls");
+  size("patch-radius", d.patch_radius, "radius of these balls, length");
+  share("missing-walls", d.missing_walls, "share of the walls without points, at least one");
+  share("missing-side", d.missing_side, "share of one side, from its left end, without points");
+  size("side-angle", r.side_half_angle_degrees,
+       "walls whose normals are this near belong to that side, degrees");
+  share("missing-foot", d.missing_foot, "share of the height without points, from below");
+  line.number("falloff", d.density_falloff, {1.0}, "density at the foot / at the top");
+  share("heavy-tails", d.heavy_tails, "share of points with more noise");
+  size("tail-factor", d.tail_factor, "how much more");
+  share("windows", d.windows, "share of the wall area that is recessed");
+  size("window-depth", d.window_depth, "of the recess, length");
+  size("window-pitch", d.window_pitch, "from window to window, length");
+  share("flipped", d.flipped_normals, "share of normals that point inwards");
+  size("outliers", d.outliers, "uniform outliers, as a share of --points");
+  size("ground", d.ground, "points of the ground, as a share of --points");
+  size("relief", d.ground_relief, "amplitude of the ground's waves, length");
+  size("trees", d.trees, "points of trees, as a share of --points");
+  line.whole("tree-count", d.tree_count, decltype(d.tree_count){0}, "number of trees");
 }
 
-options::options_description photoOptions(Request& r) {
-  options::options_description text("Photos (lengths in the building's units, before --scale)");
-  text.add_options()("photos", options::value(&r.photos),
-                     "folder for photos, their cameras and the true facades")(
-      "views", into(r.photo.views), "number of photos")(
-      "photo-width", into(r.photo.width), "pixels; the height is three quarters of it")(
-      "photo-pitch", into(r.photo.window_pitch), "from one window to the next in the photos")(
-      "recess", into(r.photo.recess), "depth of these windows; 0: they are painted")(
-      "occluders", into(r.photo.occluders), "number of poles, trees and cars")(
-      "exposure", into(r.photo.exposure), "photos are up to this share too dark or too bright")(
-      "pixel-noise", into(r.photo.pixel_noise), "standard deviation, grey levels");
-  return text;
-}
-
-Eigen::Vector3d parseOffset(const std::string& text) {
-  Eigen::Vector3d offset;
-  int end = 0;
-  const int read =
-      std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &offset[0], &offset[1], &offset[2], &end);
-  if (read != 3 || static_cast<std::size_t>(end) != text.size() || !offset.allFinite()) {
-    failUsage("--offset is '" + text + "', expected three numbers X,Y,Z");
-  }
-  return offset;
-}
-
-synth::SampledFaces parseFaces(const std::string& text) {
-  if (text == "walls") return synth::SampledFaces::Walls;
-  if (text == "roofs") return synth::SampledFaces::WallsAndRoofs;
-  if (text == "all") return synth::SampledFaces::All;
-  failUsage("--faces is '" + text + "', expected walls, roofs or all");
+void declarePhotos(cli::CommandLine& line, Request& r) {
+  synth::PhotoOptions& photo = r.photo;
+  line.group("photos (lengths in the building's units, before --scale)");
+  line.text("photos", r.photos, "folder for photos, their cameras and the true facades");
+  line.whole("views", photo.views, 1, "number of photos");
+  line.whole("photo-width", photo.width, 16, "pixels; the height is three quarters of it");
+  line.number("photo-pitch", photo.window_pitch, cli::kPositive,
+              "from one window to the next in the photos, length");
+  line.number("recess", photo.recess, cli::kNonNegative,
+              "depth of these windows, length; 0: they are painted");
+  line.whole("occluders", photo.occluders, 0, "number of poles, trees and cars");
+  line.number("exposure", photo.exposure, cli::kNonNegative,
+              "photos are up to this share too dark or too bright");
+  line.number("pixel-noise", photo.pixel_noise, cli::kNonNegative,
+              "standard deviation, grey levels");
 }
 
 void printList() {
@@ -145,57 +130,42 @@ void printList() {
   }
 }
 
-/// The request, or nothing if --help or --list was all.
-bool parse(int argc, char** argv, Request& r) {
-  options::options_description visible(
-      "storey_synth NAME -o CLOUD.ply [--truth MODEL.ply] [options]\n"
-      "A point cloud of a building whose true model is known");
-  visible.add(mainOptions(r)).add(poseOptions(r)).add(defectOptions(r)).add(photoOptions(r));
-  visible.add_options()("help,h", "this text")("list", "the names of buildings");
-  options::options_description all;
-  all.add(visible).add_options()("name", options::value(&r.name));
-  options::positional_options_description positional;
-  positional.add("name", 1);
-  options::variables_map given;
-  try {
-    options::store(
-        options::command_line_parser(argc, argv).options(all).positional(positional).run(), given);
-    options::notify(given);
-  } catch (const options::error& error) {
-    failUsage(error.what());
-  }
-  if (given.count("help") > 0) {
-    std::cout << visible;
-    return false;
-  }
-  if (given.count("list") > 0) {
+/// The building and what to make of it, or nothing if --help or --list was all.
+std::optional<synth::Building> parse(int argc, char** argv, Request& r) {
+  cli::CommandLine line("storey_synth", {"NAME -o CLOUD.ply [--truth MODEL.ply] [options]"},
+                        "A point cloud of a building whose true model is known.");
+  line.argument("name", r.name, "the building, see --list");
+  line.flag("list", r.list, "print the names of buildings and exit");
+  declareCloud(line, r);
+  declarePose(line, r);
+  declareDefects(line, r);
+  declarePhotos(line, r);
+  if (!line.parse(argc, argv)) return std::nullopt;
+  if (r.list) {
     printList();
-    return false;
+    return std::nullopt;
   }
-  if (r.name.empty() || r.output.empty()) {
-    failUsage("a building and an output (-o) are needed");
+  constexpr int kMaxViews = 10000;
+  constexpr int kMaxWidth = 20000;
+  if (r.photo.views > kMaxViews) line.fail("--views is more than " + std::to_string(kMaxViews));
+  if (r.photo.width > kMaxWidth)
+    line.fail("--photo-width is more than " + std::to_string(kMaxWidth));
+  if (r.name.empty() || r.output.empty()) line.fail("a building and an output (-o) are needed");
+  synth::Building building = synth::makeBuilding(r.name);
+  if (building.layers.empty()) {
+    line.fail("there is no building '" + r.name + "'; --list prints the names");
   }
-  return true;
+  return building;
 }
 
 void completeSampling(const synth::Building& building, Request& r) {
   synth::SamplingOptions& sampling = r.sampling;
   sampling.points = r.points > 0 ? r.points : building.points;
   sampling.normal_noise = r.normal_noise_degrees * kDegree;
-  sampling.faces = parseFaces(r.faces);
   sampling.defects.side_half_angle = r.side_half_angle_degrees * kDegree;
   sampling.pose.yaw = r.yaw_degrees * kDegree;
   sampling.pose.tilt = r.tilt_degrees * kDegree;
-  sampling.pose.offset = parseOffset(r.offset);
   r.photo.seed = sampling.seed;
-  constexpr int kMaxViews = 10000;
-  constexpr int kMaxWidth = 20000;
-  const synth::PhotoOptions& photo = r.photo;
-  if (photo.views < 1 || photo.views > kMaxViews || photo.width < 16 || photo.width > kMaxWidth ||
-      !(photo.window_pitch > 0.0) || !(photo.recess >= 0.0) || photo.occluders < 0 ||
-      !(photo.exposure >= 0.0) || !(photo.pixel_noise >= 0.0)) {
-    failUsage("an option of the photos is out of its range");
-  }
 }
 
 void writeTruth(const std::string& path, io::PolygonSoup soup, const synth::Pose& pose) {
@@ -212,18 +182,15 @@ void writeTruth(const std::string& path, io::PolygonSoup soup, const synth::Pose
 
 int run(int argc, char** argv) {
   Request request;
-  if (!parse(argc, argv, request)) {
-    return io::Ok;
-  }
-  const synth::Building building = synth::makeBuilding(request.name);
-  if (building.layers.empty()) {
-    failUsage("there is no building '" + request.name + "'; --list prints the names");
-  }
+  const std::optional<synth::Building> made = parse(argc, argv, request);
+  if (!made) return io::Ok;
+  const synth::Building& building = *made;
   completeSampling(building, request);
   const synth::SamplingOptions& sampling = request.sampling;
   const synth::SyntheticCloud cloud = synth::sampleBuilding(building.layers, sampling);
   if (cloud.size() == 0) {
-    failUsage("an option is out of its range, or no point is left");
+    throw io::Failure(io::Usage, "", "an option is out of its range, or no point is left",
+                      "see storey_synth --help");
   }
   synth::writeCloudPly(request.output, cloud, request.double_positions || needsDouble(cloud),
                        !request.no_normals);
@@ -247,5 +214,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return io::runMain("storey_synth", [&] { return run(argc, argv); });
+  return cli::runMain("storey_synth", [&] { return run(argc, argv); });
 }

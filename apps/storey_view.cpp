@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cli/command_line.h"
 #include "io/failure.h"
 #include "view/options.h"
 #include "view/render.h"
@@ -85,5 +86,5 @@ int run(int argc, char** argv) {
 }  // namespace storey::view
 
 int main(int argc, char** argv) {
-  return storey::io::runMain("storey_view", [&] { return storey::view::run(argc, argv); });
+  return storey::cli::runMain("storey_view", [&] { return storey::view::run(argc, argv); });
 }

@@ -35,7 +35,7 @@ struct Options {
   double grid = 0.0;
   FloorplanGrammar::Encoding encoding = FloorplanGrammar::Encoding::Walls;
   detail::LinkingMethod linking = detail::LinkingMethod::Optimal;
-  bool exact = true;
+  bool expansion = false;  ///< minimise by alpha-expansion instead of exactly
   unsigned int threads = 0;
   bool intermediate = false;
   bool quiet = false;

@@ -252,7 +252,7 @@ class Pipeline {
     reconstruction.setLabelCost(options_.label_cost);
     reconstruction.setMaxTypes(static_cast<std::size_t>(options_.max_types));
     reconstruction.setEncoding(options_.encoding);
-    reconstruction.setExactMinimization(options_.exact);
+    reconstruction.setExactMinimization(!options_.expansion);
     reconstruction.setGrid(options_.grid);
     pcl::PolygonMesh mesh;
     reconstruction.reconstruct(mesh);

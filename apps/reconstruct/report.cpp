@@ -67,7 +67,7 @@ Json describeParameters(const Options& o) {
           {"max_faces", o.max_faces},
           {"encoding", o.encoding == FloorplanGrammar::Encoding::Walls ? "walls" : "turns"},
           {"linking", o.linking == detail::LinkingMethod::Optimal ? "optimal" : "greedy"},
-          {"minimization", o.exact ? "exact" : "alpha-expansion"}};
+          {"minimization", o.expansion ? "alpha-expansion" : "exact"}};
 }
 
 Json describeDirections(const Result& r) {
