@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // storey_reconstruct CLOUD -o DIRECTORY: a small closed model of a building from its point cloud.
 #include <cstdio>
+#include <optional>
 
 #include "cli/command_line.h"
 #include "io/failure.h"
@@ -10,6 +11,7 @@
 #include "reconstruct/options.h"
 #include "reconstruct/pipeline.h"
 #include "reconstruct/report.h"
+#include "stages/stage_cloud_io.h"
 
 namespace storey::reconstruct {
 namespace {
@@ -17,18 +19,28 @@ namespace {
 int run(int argc, char** argv) {
   Options options;
   if (!parseOptions(argc, argv, options)) return io::Ok;
-  const auto progress = [&](const std::string& line) {
+  std::optional<io::OutputDirectory> directory;  // made when there is something to write
+  const auto file = [&](const std::string& name) {
+    if (!directory) directory.emplace(options.output_directory);
+    return directory->file(name);
+  };
+  Observers observers;
+  observers.progress = [&](const std::string& line) {
     if (!options.quiet) std::fprintf(stderr, "%s\n", line.c_str());
   };
-
-  const Result result = reconstruct(options, progress);
-  const io::OutputDirectory directory(options.output_directory);
+  if (options.intermediate) {
+    observers.cloud = [&](const std::string& name, const stages::StageCloud& cloud) {
+      writeStageCloud(file(name + ".pcd"), cloud);
+    };
+  }
+  const Result result = reconstruct(options, observers);
   const PolyhedralModel& model = result.model.model;
-  io::writeModelPly(directory.file("model.ply"), model, result.local_to_input);
-  io::writeModelObj(directory.file("model.obj"), model, result.local_to_input);
-  io::writeFloorplansGeoJson(directory.file("floorplans.geojson"), model, result.local_to_input);
-  if (options.intermediate) writeIntermediate(directory, result);
-  writeReport(directory.file("report.json"), options, result);  // last: all the others are there
+  io::writeModelPly(file("model.ply"), model, result.local_to_input);
+  io::writeModelObj(file("model.obj"), model, result.local_to_input);
+  io::writeFloorplansGeoJson(file("floorplans.geojson"), model, result.local_to_input,
+                             options.attitude.crs);
+  if (options.intermediate) writeIntermediate(*directory, options, result);
+  writeReport(file("report.json"), options, result);  // last: all the others are there
   if (!result.model.check.ok()) {
     throw io::Failure(io::Internal, options.input, "the model failed its checks",
                       "see report.json, and report it with the cloud");

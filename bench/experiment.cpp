@@ -113,8 +113,7 @@ Outcome performHere(const Experiment& experiment) {
   options.threads = 1;
   const double start = cpuSeconds();
   try {
-    const reconstruct::Result result =
-        reconstruct::reconstruct(std::move(cloud), options, [](const std::string&) {});
+    const reconstruct::Result result = reconstruct::reconstruct(std::move(cloud), options);
     m.seconds = cpuSeconds() - start;
     const io::PolygonSoup model = unposed(result, sampling.pose);
     outcome.vertices = model.vertices;

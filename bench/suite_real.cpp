@@ -80,19 +80,19 @@ reconstruct::Options optionsOf(const std::string& cloud, const std::string& text
 
 Agreement agreementOf(const reconstruct::Options& options) {
   const std::clock_t start = std::clock();
-  const reconstruct::Result result = reconstruct::reconstruct(options, [](const std::string&) {});
+  const reconstruct::Result result = reconstruct::reconstruct(options);
   Agreement a;
   a.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   std::vector<synth::OrientedPosition> points;
-  for (const pcl::index_t i : result.planar) {
-    const reconstruct::Point& p = (*result.cloud)[static_cast<std::size_t>(i)];
+  for (const pcl::index_t i : planarPoints(result.cloud)) {
+    const reconstruct::Point& p = (*result.cloud.points)[static_cast<std::size_t>(i)];
     points.push_back({p.getVector3fMap().cast<double>(), p.getNormalVector3fMap().cast<double>()});
   }
-  const synth::CloudEvaluation e =
-      synth::evaluateAgainstCloud(io::toPolygons(result.model.model), points,
-                                  Eigen::Vector3d::UnitZ(), result.noise, result.scale.density);
-  a.points = result.cloud->size();
-  a.noise = result.noise;
+  const synth::CloudEvaluation e = synth::evaluateAgainstCloud(
+      io::toPolygons(result.model.model), points, Eigen::Vector3d::UnitZ(),
+      result.cloud.state.noise, result.cloud.state.density);
+  a.points = result.cloud.points->size();
+  a.noise = result.cloud.state.noise;
   a.explained = e.explainedShare();
   a.supported = e.supportedShare();
   a.polygons = result.model.model.faces.size();

@@ -7,26 +7,14 @@
 #include "io/cloud_offset.h"
 #include "io/failure.h"
 #include "io/input_file.h"
-#include "io/pcd_reader.h"
-#include "io/ply_reader.h"
 #include "io/point_index.h"
+#include "io/raw_cloud.h"
 
 namespace storey::io {
 namespace {
 
 // The square of a distance between points closer to the origin than this fits into a float.
 constexpr double kMaxLocalCoordinate = 1e18;
-
-RawCloud readRaw(InputFile& file, std::uint64_t max_memory) {
-  const std::string_view start = file.peek(16);
-  if (start.substr(0, 4) == "ply\n" || start.substr(0, 5) == "ply\r\n") {
-    return readPlyCloud(file, max_memory);
-  }
-  for (const char* first : {"#", "VERSION", "FIELDS", "COLUMNS"}) {
-    if (start.rfind(first, 0) == 0) return readPcd(file, max_memory);
-  }
-  file.fail("is neither a PCD nor a PLY file", "convert the cloud to one of the two");
-}
 
 std::array<float, 3> unitNormal(const RawCloud& raw, std::size_t i) {
   if (!raw.has_normal_fields) return {0.0f, 0.0f, 0.0f};
@@ -84,8 +72,10 @@ void judgeNormals(const RawCloud& raw, LoadedCloud& loaded) {
 
 LoadedCloud readCloud(const std::string& path, const CloudReaderOptions& options) {
   InputFile file(path, options.max_bytes);
-  const RawCloud raw = readRaw(file, options.max_memory);
+  return conditionCloud(readRawCloud(file, options.max_memory), file);
+}
 
+LoadedCloud conditionCloud(const RawCloud& raw, const InputFile& file) {
   LoadedCloud loaded;
   loaded.cloud.reset(new pcl::PointCloud<pcl::PointNormal>);
   loaded.format = raw.format;

@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <string>
 
+#include "io/input_file.h"
 #include "io/limits.h"
+#include "io/point_records.h"
 
 namespace storey::io {
 
@@ -49,5 +51,8 @@ struct CloudReaderOptions {
 /// No number in the file is trusted: whatever is wrong ends in a `Failure` before memory is taken.
 /// \throws Failure (BadInput, MissingInput, IoError)
 LoadedCloud readCloud(const std::string& path, const CloudReaderOptions& options = {});
+
+/// The second half of it: what the stages may rely on, of the points of a file.
+LoadedCloud conditionCloud(const RawCloud& raw, const InputFile& file);
 
 }  // namespace storey::io

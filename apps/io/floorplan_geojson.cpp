@@ -3,6 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "io/crs_json.h"
 #include "io/model_io.h"
 #include "io/output_file.h"
 
@@ -107,30 +108,22 @@ Json feature(const PolyhedralModel& model, const FloorplanLayer& layer,
   return result;
 }
 
-Json matrixRows(const Eigen::Isometry3d& transform) {
-  Json rows = Json::array();
-  for (int row = 0; row < 4; ++row) {
-    const Eigen::RowVector4d r = transform.matrix().row(row);
-    rows.push_back({r[0], r[1], r[2], r[3]});
-  }
-  return rows;
-}
-
 }  // namespace
 
 void writeFloorplansGeoJson(const std::string& path, const PolyhedralModel& model,
-                            const Eigen::Isometry3d& local_to_input) {
+                            const Eigen::Isometry3d& local_to_input, const std::string& crs) {
   const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
   const bool upright = keepsVertical(local_to_input);
   Json collection;
   collection["type"] = "FeatureCollection";
+  addCrs(crs, collection);
   collection["frame_to_input"] = matrixRows(upright ? identity : local_to_input);
   collection["features"] = Json::array();
   for (const FloorplanLayer& layer : model.storeys) {
     collection["features"].push_back(feature(model, layer, upright ? local_to_input : identity));
   }
   OutputFile file(path);
-  file.write(collection.dump() + "\n");
+  file.write(collection.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
   file.commit();
 }
 

@@ -48,9 +48,10 @@ void writeModelObj(const std::string& path, const PolyhedralModel& model,
 /// corner i to corner i + 1 (null: no face or not known). If `local_to_input` keeps the vertical,
 /// coordinates are the input's own. If not (the cloud was turned upright), they are the upright
 /// frame's. The member `frame_to_input` of the collection, a 4 x 4 matrix by rows, takes the
-/// written coordinates to the input's in either case. \throws Failure (CannotCreate, IoError)
+/// written coordinates to the input's in either case. \param crs of the input's coordinates, any
+/// text; empty: not known. \throws Failure (CannotCreate, IoError)
 void writeFloorplansGeoJson(const std::string& path, const PolyhedralModel& model,
-                            const Eigen::Isometry3d& local_to_input);
+                            const Eigen::Isometry3d& local_to_input, const std::string& crs = {});
 
 struct PolygonReaderOptions {
   std::uint64_t max_bytes = kDefaultMaxFileBytes;

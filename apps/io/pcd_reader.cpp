@@ -31,6 +31,7 @@ struct PcdHeader {
   std::uint64_t height = 0;
   std::uint64_t points = 0;
   std::string data;
+  std::vector<std::string> notes;
 };
 
 int findKeyword(std::string_view word) {
@@ -151,7 +152,11 @@ PcdHeader readHeader(InputFile& file) {
   for (int last = -1; last != Data;) {
     const std::string_view line = file.nextHeaderLine();
     const Words words = splitWords(line);
-    if (words.empty() || words[0][0] == '#') continue;
+    if (words.empty()) continue;
+    if (words[0][0] == '#') {
+      if (auto note = noteOf(line.substr(line.find('#') + 1))) header.notes.push_back(*note);
+      continue;
+    }
     const int keyword = findKeyword(words[0]);
     if (keyword < 0) {
       file.failAtLine("'" + printable(std::string(words[0]), 40) + "' is not a keyword of PCD");
@@ -221,7 +226,7 @@ void checkBody(const InputFile& file, const PcdHeader& header) {
 
 /// The uncompressed body: all numbers of the first field, then all of the second, ...
 std::vector<unsigned char> decompress(InputFile& file, const PcdHeader& header,
-                                      std::uint64_t max_memory) {
+                                      const PointColumns& columns, std::uint64_t max_memory) {
   const unsigned char* const sizes = file.take(8);
   const auto compressed = static_cast<std::uint64_t>(decodeScalar(sizes, Scalar::UInt32, false));
   const auto full = static_cast<std::uint64_t>(decodeScalar(sizes + 4, Scalar::UInt32, false));
@@ -234,7 +239,7 @@ std::vector<unsigned char> decompress(InputFile& file, const PcdHeader& header,
     file.failAtByte("the compressed body is to become " + std::to_string(full) +
                     " bytes, the points need " + std::to_string(expected));
   }
-  file.checkMemory(compressed + full + header.points * kLoaderBytesPerPoint, max_memory,
+  file.checkMemory(compressed + full + loaderBytes(header.points, columns), max_memory,
                    std::to_string(header.points) + " points");
   std::vector<unsigned char> body(full);
   const unsigned char* const packed = file.take(compressed);
@@ -246,12 +251,11 @@ std::vector<unsigned char> decompress(InputFile& file, const PcdHeader& header,
 
 void readCompressed(InputFile& file, const PcdHeader& header, const PointColumns& columns,
                     std::uint64_t max_memory, RawCloud& raw) {
-  const std::vector<unsigned char> body = decompress(file, header, max_memory);
-  raw.reserve(header.points);
-  const std::size_t num_columns = columns.hasNormals() ? 6 : 3;
-  std::array<double, 6> values{};
+  const std::vector<unsigned char> body = decompress(file, header, columns, max_memory);
+  raw.begin(header.points, columns);
+  std::vector<double> values(columns.field.size());
   for (std::uint64_t i = 0; i < header.points; ++i) {
-    for (std::size_t c = 0; c < num_columns; ++c) {
+    for (std::size_t c = 0; c < values.size(); ++c) {
       const PointField& field = header.fields[columns.field[c]];
       const unsigned char* const block = body.data() + field.offset * header.points;
       values[c] = decodeScalar(block + i * sizeOf(field.type), field.type, false);
@@ -262,23 +266,23 @@ void readCompressed(InputFile& file, const PcdHeader& header, const PointColumns
 
 }  // namespace
 
-RawCloud readPcd(InputFile& file, std::uint64_t max_memory) {
+RawCloud readPcd(InputFile& file, std::uint64_t max_memory,
+                 const std::vector<std::string>& extras) {
   PcdHeader header = readHeader(file);
   layOut(file, header);
-  const PointColumns columns = findPointColumns(header.fields, file);
+  const PointColumns columns = findPointColumns(header.fields, file, extras);
   checkCounts(file, header);
   checkBody(file, header);
-  file.checkMemory(header.points * kLoaderBytesPerPoint, max_memory,
+  file.checkMemory(loaderBytes(header.points, columns), max_memory,
                    std::to_string(header.points) + " points");
 
   RawCloud raw;
-  raw.declared = header.points;
-  raw.has_normal_fields = columns.hasNormals();
+  raw.notes = header.notes;
   raw.format = "pcd " + header.data + " " + nameOf(header.fields[columns.field[0]].type);
   if (header.data == "binary_compressed") {
     readCompressed(file, header, columns, max_memory, raw);
   } else {
-    raw.reserve(header.points);
+    raw.begin(header.points, columns);
     if (header.data == "binary") {
       readBinaryRecords(file, header.fields, columns, false, raw);
     } else {

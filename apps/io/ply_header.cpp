@@ -5,6 +5,7 @@
 
 #include "io/failure.h"
 #include "io/limits.h"
+#include "io/point_records.h"
 #include "io/scan.h"
 
 namespace storey::io {
@@ -130,7 +131,12 @@ PlyHeader readPlyHeader(InputFile& file) {
   while (true) {
     const std::string_view line = file.nextHeaderLine();
     const Words words = splitWords(line);
-    if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+    if (words.empty() || words[0] == "obj_info") continue;
+    if (words[0] == "comment") {
+      const std::size_t text = line.find("comment") + 7;
+      if (auto note = noteOf(line.substr(text))) header.notes.push_back(*note);
+      continue;
+    }
     if (words[0] == "end_header" && words.size() == 1) break;
     if (words[0] == "format") {
       if (has_format) file.failAtLine("a second format");

@@ -34,12 +34,13 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::Ascii;
   std::vector<PlyElement> elements;  ///< in the order of the body
+  std::vector<std::string> notes;    ///< comments that are ours, see `noteOf`
 };
 
 const char* nameOf(PlyFormat format);
 
 /// Reads the header from the first byte to `end_header` and checks that the rest of the file can
-/// hold what it declares. `comment` and `obj_info` lines mean nothing to us and are passed over.
+/// hold what it declares. All `comment` lines but ours and `obj_info` lines are passed over.
 PlyHeader readPlyHeader(InputFile& file);
 
 }  // namespace storey::io

@@ -27,33 +27,30 @@ std::vector<PointField> fieldsOf(const PlyElement& vertex) {
 /// The way for vertices with lists, whose rows differ in length.
 void readRowByRow(InputFile& file, const PlyElement& vertex, PlyFormat format,
                   const PointColumns& columns, RawCloud& raw) {
-  const std::size_t num_columns = columns.hasNormals() ? 6 : 3;
-  std::array<double, 6> values{};
+  std::vector<double> values(columns.field.size());
   PlyRows rows(file, vertex, format);
   for (std::uint64_t i = 0; i < vertex.count; ++i) {
     rows.next();
-    for (std::size_t c = 0; c < num_columns; ++c) values[c] = rows.scalar(columns.field[c]);
+    for (std::size_t c = 0; c < values.size(); ++c) values[c] = rows.scalar(columns.field[c]);
     raw.add(values);
   }
 }
 
 RawCloud readVertices(InputFile& file, const PlyElement& vertex, PlyFormat format,
-                      std::uint64_t max_memory) {
+                      std::uint64_t max_memory, const std::vector<std::string>& extras) {
   if (vertex.count == 0) file.fail("declares no points");
   if (vertex.count > kMaxPoints) {
     file.fail("declares " + std::to_string(vertex.count) + " points, the limit is " +
                   std::to_string(kMaxPoints),
               "cut the building out of the cloud");
   }
-  file.checkMemory(vertex.count * kLoaderBytesPerPoint, max_memory,
-                   std::to_string(vertex.count) + " points");
   const std::vector<PointField> fields = fieldsOf(vertex);
-  const PointColumns columns = findPointColumns(fields, file);
+  const PointColumns columns = findPointColumns(fields, file, extras);
+  file.checkMemory(loaderBytes(vertex.count, columns), max_memory,
+                   std::to_string(vertex.count) + " points");
   RawCloud raw;
-  raw.declared = vertex.count;
-  raw.has_normal_fields = columns.hasNormals();
   raw.format = std::string("ply ") + nameOf(format) + " " + nameOf(fields[columns.field[0]].type);
-  raw.reserve(vertex.count);
+  raw.begin(vertex.count, columns);
   if (vertex.hasLists()) {
     readRowByRow(file, vertex, format, columns, raw);
   } else if (format == PlyFormat::Ascii) {
@@ -66,13 +63,14 @@ RawCloud readVertices(InputFile& file, const PlyElement& vertex, PlyFormat forma
 
 }  // namespace
 
-RawCloud readPlyCloud(InputFile& file, std::uint64_t max_memory) {
+RawCloud readPlyCloud(InputFile& file, std::uint64_t max_memory,
+                      const std::vector<std::string>& extras) {
   const PlyHeader header = readPlyHeader(file);
   RawCloud raw;
   bool found = false;
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex") {
-      raw = readVertices(file, element, header.format, max_memory);
+      raw = readVertices(file, element, header.format, max_memory, extras);
       found = true;
     } else {
       skipElement(file, element, header.format);
@@ -80,6 +78,7 @@ RawCloud readPlyCloud(InputFile& file, std::uint64_t max_memory) {
   }
   if (!found) file.fail("has no element 'vertex'", "write the points as the element 'vertex'");
   expectPlyEnd(file, header.format);
+  raw.notes = header.notes;
   return raw;
 }
 

@@ -2,7 +2,6 @@
 #include "io/point_records.h"
 
 #include <algorithm>
-#include <initializer_list>
 
 #include "io/failure.h"
 #include "io/scan.h"
@@ -10,28 +9,39 @@
 namespace storey::io {
 namespace {
 
+constexpr std::size_t kMissing = static_cast<std::size_t>(-1);
+
 std::size_t findField(const std::vector<PointField>& fields,
-                      std::initializer_list<const char*> names) {
-  for (const char* name : names) {
+                      const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
     for (std::size_t i = 0; i < fields.size(); ++i) {
       if (fields[i].name == name && fields[i].count == 1 && !fields[i].is_list) return i;
     }
   }
-  return PointColumns::kMissing;
+  return kMissing;
 }
 
-void checkPosition(const std::vector<PointField>& fields, const PointColumns& columns,
-                   const InputFile& file) {
-  constexpr std::array<const char*, 3> kNames = {"x", "y", "z"};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (columns.field[axis] == PointColumns::kMissing) {
-      file.fail(std::string("its points have no single number called ") + kNames[axis],
+void addPosition(const std::vector<PointField>& fields, const InputFile& file,
+                 PointColumns& columns) {
+  for (const char* const name : {"x", "y", "z"}) {
+    const std::size_t field = findField(fields, {name});
+    if (field == kMissing) {
+      file.fail(std::string("its points have no single number called ") + name,
                 "write the cloud with the fields x, y and z");
     }
-    if (fields[columns.field[axis]].type != fields[columns.field[0]].type) {
+    columns.field.push_back(field);
+    if (fields[field].type != fields[columns.field[0]].type) {
       file.fail("x, y and z are of different types", "write them all as float or all as double");
     }
   }
+}
+
+void addNormal(const std::vector<PointField>& fields, PointColumns& columns) {
+  const std::size_t normal[3] = {findField(fields, {"normal_x", "nx"}),
+                                 findField(fields, {"normal_y", "ny"}),
+                                 findField(fields, {"normal_z", "nz"})};
+  columns.has_normals = std::count(normal, normal + 3, kMissing) == 0;
+  if (columns.has_normals) columns.field.insert(columns.field.end(), normal, normal + 3);
 }
 
 std::size_t recordBytes(const std::vector<PointField>& fields) {
@@ -41,42 +51,62 @@ std::size_t recordBytes(const std::vector<PointField>& fields) {
 
 }  // namespace
 
-PointColumns findPointColumns(const std::vector<PointField>& fields, const InputFile& file) {
+PointColumns findPointColumns(const std::vector<PointField>& fields, const InputFile& file,
+                              const std::vector<std::string>& extras) {
   PointColumns columns;
-  columns.field = {findField(fields, {"x"}),
-                   findField(fields, {"y"}),
-                   findField(fields, {"z"}),
-                   findField(fields, {"normal_x", "nx"}),
-                   findField(fields, {"normal_y", "ny"}),
-                   findField(fields, {"normal_z", "nz"})};
-  checkPosition(fields, columns, file);
-  if (std::count(columns.field.begin() + 3, columns.field.end(), PointColumns::kMissing) > 0) {
-    std::fill(columns.field.begin() + 3, columns.field.end(), PointColumns::kMissing);
+  addPosition(fields, file, columns);
+  addNormal(fields, columns);
+  for (const std::string& name : extras) {
+    const std::size_t field = findField(fields, {name});
+    if (field == kMissing) continue;
+    columns.field.push_back(field);
+    columns.extra_names.push_back(name);
   }
   return columns;
 }
 
-void RawCloud::reserve(std::uint64_t num_points) {
+void RawCloud::begin(std::uint64_t num_points, const PointColumns& columns) {
+  declared = num_points;
+  has_normal_fields = columns.has_normals;
   positions.reserve(3 * num_points);
   if (has_normal_fields) normals.reserve(3 * num_points);
+  for (const std::string& name : columns.extra_names) {
+    extras.push_back({name, {}});
+    extras.back().values.reserve(num_points);
+  }
 }
 
-void RawCloud::add(const std::array<double, 6>& values) {
+void RawCloud::add(const std::vector<double>& values) {
   positions.insert(positions.end(), values.begin(), values.begin() + 3);
-  if (!has_normal_fields) return;
-  for (std::size_t i = 3; i < 6; ++i) normals.push_back(static_cast<float>(values[i]));
+  std::size_t next = 3;
+  if (has_normal_fields) {
+    for (; next < 6; ++next) normals.push_back(static_cast<float>(values[next]));
+  }
+  for (ExtraColumn& extra : extras) extra.values.push_back(values[next++]);
+}
+
+std::uint64_t loaderBytes(std::uint64_t num_points, const PointColumns& columns) {
+  return num_points * (kLoaderBytesPerPoint + sizeof(double) * columns.extra_names.size());
+}
+
+std::optional<std::string> noteOf(std::string_view comment) {
+  constexpr std::string_view kOurs = "storey ";
+  const std::size_t start = comment.find_first_not_of(" \t");
+  if (start == std::string_view::npos || comment.substr(start, kOurs.size()) != kOurs) {
+    return std::nullopt;
+  }
+  return std::string(comment.substr(start + kOurs.size()));
 }
 
 void readBinaryRecords(InputFile& file, const std::vector<PointField>& fields,
                        const PointColumns& columns, bool big_endian, RawCloud& raw) {
   const std::size_t record_bytes = recordBytes(fields);
-  const std::size_t num_columns = columns.hasNormals() ? 6 : 3;
-  std::array<PointField, 6> wanted;
-  for (std::size_t c = 0; c < num_columns; ++c) wanted[c] = fields[columns.field[c]];
-  std::array<double, 6> values{};
+  std::vector<PointField> wanted;
+  for (const std::size_t field : columns.field) wanted.push_back(fields[field]);
+  std::vector<double> values(wanted.size());
   for (std::uint64_t i = 0; i < raw.declared; ++i) {
     const unsigned char* const record = file.take(record_bytes);
-    for (std::size_t c = 0; c < num_columns; ++c) {
+    for (std::size_t c = 0; c < wanted.size(); ++c) {
       values[c] = decodeScalar(record + wanted[c].offset, wanted[c].type, big_endian);
     }
     raw.add(values);
@@ -87,8 +117,7 @@ void readAsciiRecords(InputFile& file, const std::vector<PointField>& fields,
                       const PointColumns& columns, RawCloud& raw) {
   const std::size_t num_values = fields.back().index + fields.back().count;
   std::vector<double> record(num_values);
-  const std::size_t num_columns = columns.hasNormals() ? 6 : 3;
-  std::array<double, 6> values{};
+  std::vector<double> values(columns.field.size());
   std::string_view line;
   for (std::uint64_t i = 0; i < raw.declared; ++i) {
     if (!file.nextBodyLine(line)) {
@@ -110,7 +139,7 @@ void readAsciiRecords(InputFile& file, const std::vector<PointField>& fields,
       file.failAtLine("has " + std::to_string(got) + " numbers, expected " +
                       std::to_string(num_values));
     }
-    for (std::size_t c = 0; c < num_columns; ++c) {
+    for (std::size_t c = 0; c < values.size(); ++c) {
       values[c] = record[fields[columns.field[c]].index];
     }
     raw.add(values);

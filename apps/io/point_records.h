@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/input_file.h"
@@ -22,35 +23,54 @@ struct PointField {
   bool is_list = false;    ///< PLY list: of no use for a point
 };
 
-/// Positions of the fields that make an oriented point.
+/// Positions of the fields that are read of a point.
 struct PointColumns {
-  static constexpr std::size_t kMissing = static_cast<std::size_t>(-1);
-  /// Into the fields, in the order x, y, z, normal_x, normal_y, normal_z.
-  std::array<std::size_t, 6> field;
-
-  bool hasNormals() const { return field[3] != kMissing; }
+  /// Into the fields: x, y, z, then normal_x, normal_y, normal_z if there are normals, then the
+  /// fields that were asked for and are there.
+  std::vector<std::size_t> field;
+  bool has_normals = false;
+  std::vector<std::string> extra_names;  ///< of the last of them
 };
 
-/// Finds x, y, z and, under the names `normal_x` or `nx` etc., the normal. Fails if a coordinate is
-/// missing, a list or an array, or if the three differ in type. An incomplete normal is none.
-PointColumns findPointColumns(const std::vector<PointField>& fields, const InputFile& file);
+/// Finds x, y, z and, under the names `normal_x` or `nx` etc., the normal, and the fields called
+/// `extras`. Fails if a coordinate is missing, a list or an array, or if the three differ in type.
+/// An incomplete normal is none.
+PointColumns findPointColumns(const std::vector<PointField>& fields, const InputFile& file,
+                              const std::vector<std::string>& extras);
+
+/// A further field of the points.
+struct ExtraColumn {
+  std::string name;
+  std::vector<double> values;  ///< one a point
+};
 
 /// Points as they are in the file: double precision, nothing dropped.
 struct RawCloud {
-  std::vector<double> positions;  ///< 3 a point
-  std::vector<float> normals;     ///< 3 a point, or none at all
+  std::vector<double> positions;    ///< 3 a point
+  std::vector<float> normals;       ///< 3 a point, or none at all
+  std::vector<ExtraColumn> extras;  ///< the fields that were asked for and are there
+  std::vector<std::string> notes;   ///< comments of the header that are ours, see `noteOf`
   bool has_normal_fields = false;
   std::uint64_t declared = 0;
   std::string format;
 
-  void reserve(std::uint64_t num_points);
-  void add(const std::array<double, 6>& values);
+  /// Makes ready for points of these columns.
+  void begin(std::uint64_t num_points, const PointColumns& columns);
+  /// \param values parallel to the columns
+  void add(const std::vector<double>& values);
   std::uint64_t size() const { return positions.size() / 3; }
 };
 
 /// Bytes of memory that reading takes for each point at its peak: raw position (24) and normal
 /// (12), the finished point (48), and the table that finds duplicates (12 + 16).
 constexpr std::uint64_t kLoaderBytesPerPoint = 112;
+
+/// The same with the columns that were asked for.
+std::uint64_t loaderBytes(std::uint64_t num_points, const PointColumns& columns);
+
+/// What follows "storey " in a comment of a header; nothing if the comment is not ours.
+/// \param comment without the sign that makes it one
+std::optional<std::string> noteOf(std::string_view comment);
 
 /// Reads `raw.declared` records of fixed size: the fields without gaps.
 void readBinaryRecords(InputFile& file, const std::vector<PointField>& fields,

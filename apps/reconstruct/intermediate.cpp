@@ -1,73 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruct/intermediate.h"
 
-#include <pcl/common/io.h>
 #include <storey/surface/triangulation.h>
 
 #include <algorithm>
 #include <array>
 
-#include "io/pcd_writer.h"
+#include "stages/floorplan_file.h"
 
 namespace storey::reconstruct {
 namespace {
-
-using Labelled = pcl::PointCloud<pcl::PointXYZLNormal>;
-
-// A cloud whose points carry a label, 0 where there is none.
-Labelled withLabels(const Cloud& cloud, const std::vector<int>& labels) {
-  Labelled labelled;
-  pcl::copyPointCloud(cloud, labelled);
-  for (std::size_t i = 0; i < labelled.size(); ++i) {
-    labelled[i].label = static_cast<std::uint32_t>(labels[i] + 1);
-  }
-  return labelled;
-}
-
-void writeConfidence(const io::OutputDirectory& directory, const Result& result) {
-  pcl::PointCloud<pcl::PointXYZINormal> confident;
-  pcl::copyPointCloud(*result.cloud, confident);
-  for (std::size_t i = 0; i < confident.size(); ++i) {
-    confident[i].intensity = result.confidences[i];
-  }
-  io::writeCloudPcd(directory.file("02_confidence.pcd"), confident);
-}
-
-// The clouds of all slices together. Flattened points go back to the heights that they came from,
-// so that the stages can be looked at over each other.
-void writeSliceStages(const io::OutputDirectory& directory, const Result& result) {
-  std::vector<int> slice_of(result.cloud->size(), -1);
-  Cloud smoothed;
-  Cloud refined;
-  std::vector<int> labels;
-  std::vector<int> regions;
-  int num_regions = 0;
-  for (std::size_t s = 0; s < result.stages.size(); ++s) {
-    const SliceStages<Point>& stages = result.stages[s];
-    std::vector<int> region_of(stages.smoothed.size(), -1);
-    for (const pcl::PointIndices& region : stages.regions) {
-      for (const pcl::index_t i : region.indices) {
-        region_of[static_cast<std::size_t>(i)] = num_regions;
-      }
-      ++num_regions;
-    }
-    for (std::size_t i = 0; i < stages.smoothed.size(); ++i) {
-      const auto origin = static_cast<std::size_t>(stages.indices[i]);
-      slice_of[origin] = static_cast<int>(s);
-      smoothed.push_back(stages.smoothed[i]);
-      smoothed.back().z = (*result.cloud)[origin].z;
-      refined.push_back(stages.refined[i]);
-      refined.back().z = smoothed.back().z;
-      labels.push_back(stages.labels[i]);
-      regions.push_back(region_of[i]);
-    }
-  }
-  io::writeCloudPcd(directory.file("04_slices.pcd"), withLabels(*result.cloud, slice_of));
-  io::writeCloudPcd(directory.file("05_normals.pcd"), smoothed);
-  io::writeCloudPcd(directory.file("06_labels.pcd"), withLabels(smoothed, labels));
-  io::writeCloudPcd(directory.file("07_refined.pcd"), refined);
-  io::writeCloudPcd(directory.file("08_regions.pcd"), withLabels(refined, regions));
-}
 
 // Legacy VTK, the only format besides PCD that pcl_viewer reads.
 class VtkFile {
@@ -179,19 +121,21 @@ void writeSupport(const std::string& path, const PolyhedralModel& model) {
   file.commit();
 }
 
+void writeFloorplanFiles(const io::OutputDirectory& directory, const Options& options,
+                         const Result& result) {
+  stages::StageFloorplans floorplans;
+  floorplans.method = options.method;
+  floorplans.layers = options.method == Method::Paper ? result.slices.layers : result.blocks;
+  floorplans.state = result.cloud.state;
+  writeFloorplans(directory.file("09_floorplans.geojson"), floorplans);
+  writeFloorplanLines(directory.file("09_floorplans.vtk"), floorplans.layers);
+}
+
 }  // namespace
 
-void writeIntermediate(const io::OutputDirectory& directory, const Result& result) {
-  io::writeCloudPcd(directory.file("01_upright.pcd"), *result.cloud);
-  writeConfidence(directory, result);
-  io::writeCloudPcd(directory.file("03_directions.pcd"),
-                    withLabels(*result.cloud, result.point_directions));
-  if (result.slices.empty()) {
-    writeFloorplanLines(directory.file("09_floorplans.vtk"), result.blocks);
-  } else {
-    writeSliceStages(directory, result);
-    writeFloorplanLines(directory.file("09_floorplans.vtk"), result.slices);
-  }
+void writeIntermediate(const io::OutputDirectory& directory, const Options& options,
+                       const Result& result) {
+  writeFloorplanFiles(directory, options, result);
   writeModelTriangles(directory.file("11_model.vtk"), result.model.model);
   writeSupport(directory.file("11_support.vtk"), result.model.model);
 }

@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
-#include <storey/features/vertical_direction_estimation.h>
-#include <storey/filters/cloud_scale.h>
-#include <storey/segmentation/building_floorplan_extraction.h>
-#include <storey/segmentation/layerwise_floorplan_extraction.h>
-#include <storey/surface/layerwise_model.h>
-
-#include <Eigen/Geometry>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "io/cloud_reader.h"
 #include "reconstruct/options.h"
+#include "stages/slices.h"
 
 namespace storey::reconstruct {
 
-using Point = pcl::PointNormal;
-using Cloud = pcl::PointCloud<Point>;
+using stages::Cloud;
+using stages::Point;
 
 struct StageTime {
   std::string name;
@@ -29,39 +21,32 @@ struct StageTime {
 
 /// What every stage found, from the cloud to the model.
 struct Result {
-  io::LoadedCloud loaded;  ///< the cloud itself is moved on to `cloud`
-  Cloud::Ptr cloud;        ///< upright (+z is up), with outward normals
-  Eigen::Isometry3d local_to_input = Eigen::Isometry3d::Identity();
-  int normals_k = 0;  ///< neighbours of estimated normals; 0: they were given
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< in the input's frame
-  bool level = false;  ///< +z is within the accuracy of `up` and was taken for it
-  VerticalQuality vertical;
-  bool inside = false;  ///< the model is a space seen from inside
-  std::string side_reason;
-  CloudScale scale;
-  double noise = 0.0;              ///< what the later stages work with
-  double planar_threshold = 0.0;   ///< T_k
-  std::vector<float> confidences;  ///< planar confidence of each point
-  pcl::Indices planar;             ///< indices of the planar points
-  std::vector<Eigen::Vector3d> directions;
-  std::vector<std::size_t> direction_points;
-  std::vector<int> point_directions;  ///< of each point; -1: none
-  double slice_thickness = 0.0;
-  std::vector<FloorplanLayer> slices;  ///< method paper: a floorplan for each slice
-  std::vector<FloorplanLayer> blocks;  ///< method building
-  detail::BuildingFloorplans building;
-  std::vector<SliceStages<Point>> stages;
+  io::LoadedCloud loaded;  ///< the points themselves are moved on to `cloud`
+  stages::Attitude attitude;
+  stages::StageCloud cloud;                     ///< all points, upright
+  stages::SliceFloorplans slices;               ///< method paper
+  std::vector<FloorplanLayer> blocks;           ///< method building
+  storey::detail::BuildingFloorplans building;  ///< how they were found
   LayerwiseModel model;
+  Eigen::Isometry3d local_to_input = Eigen::Isometry3d::Identity();  ///< of the model
   std::vector<StageTime> times;
 };
 
-/// Takes the cloud `options.input` through all stages. \param progress is called at the end of each
-/// stage with a line that says what it found \throws io::Failure (BadInput) with the reason where a
-/// stage finds nothing to go on with
-Result reconstruct(const Options& options, const std::function<void(const std::string&)>& progress);
+/// Who wants to see what happens.
+struct Observers {
+  /// Called at the end of each stage with a line that says what it found.
+  std::function<void(const std::string& line)> progress = [](const std::string&) {};
+  /// Called with the cloud of each stage under its name, as "01_upright".
+  std::function<void(const std::string& name, const stages::StageCloud&)> cloud =
+      [](const std::string&, const stages::StageCloud&) {};
+};
+
+/// Takes the cloud `options.input` through all stages: the programs of the stages one after the
+/// other, without their files. \throws io::Failure (BadInput) with the reason where a stage finds
+/// nothing to go on with
+Result reconstruct(const Options& options, const Observers& observers = {});
 
 /// The same for a cloud in memory; `options.input` is only its name in messages.
-Result reconstruct(io::LoadedCloud cloud, const Options& options,
-                   const std::function<void(const std::string&)>& progress);
+Result reconstruct(io::LoadedCloud cloud, const Options& options, const Observers& observers = {});
 
 }  // namespace storey::reconstruct

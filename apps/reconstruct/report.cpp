@@ -43,57 +43,60 @@ double turn(const Eigen::Isometry3d& rotation) {
 Json describeInput(const Options& options, const Result& r) {
   return {{"file", options.input},
           {"format", r.loaded.format},
-          {"points", r.cloud->size()},
+          {"points", r.cloud.points->size()},
           {"declared", r.loaded.declared},
           {"dropped_non_finite", r.loaded.dropped_non_finite},
           {"collapsed_duplicates", r.loaded.collapsed_duplicates},
           {"zero_normals", r.loaded.zero_normals},
-          {"offset", vector(r.loaded.offset)}};
+          {"offset", vector(r.loaded.offset)},
+          {"crs", r.cloud.state.crs.empty() ? Json(nullptr) : Json(r.cloud.state.crs)}};
 }
 
 Json describeParameters(const Options& o) {
-  return {{"up", o.up.isZero() ? Json("derived") : vector(o.up)},
-          {"space", o.side == SpaceSide::Auto     ? "auto"
-                    : o.side == SpaceSide::Inside ? "inside"
+  using Linking = storey::detail::LinkingMethod;
+  const stages::AttitudeOptions& a = o.attitude;
+  return {{"up", a.up.isZero() ? Json("derived") : vector(a.up)},
+          {"space", a.side == SpaceSide::Auto     ? "auto"
+                    : a.side == SpaceSide::Inside ? "inside"
                                                   : "outside"},
           {"method", o.method == Method::Paper ? "paper" : "building"},
           {"block_cost", o.block_cost},
-          {"noise", o.noise},
+          {"noise", a.noise},
           {"kept_share", o.kept_share},
-          {"slice_thickness", o.slice_thickness},
-          {"smoothness", o.smoothness},
-          {"label_cost", o.label_cost},
-          {"max_types", o.max_types},
-          {"max_faces", o.max_faces},
-          {"encoding", o.encoding == FloorplanGrammar::Encoding::Walls ? "walls" : "turns"},
-          {"linking", o.linking == detail::LinkingMethod::Optimal ? "optimal" : "greedy"},
-          {"minimization", o.expansion ? "alpha-expansion" : "exact"}};
+          {"slice_thickness", o.slices.thickness},
+          {"smoothness", o.model.smoothness},
+          {"label_cost", o.model.label_cost},
+          {"max_types", o.simplicity.max_types},
+          {"max_faces", o.simplicity.max_faces},
+          {"encoding", o.model.encoding == FloorplanGrammar::Encoding::Walls ? "walls" : "turns"},
+          {"linking", o.slices.linking == Linking::Optimal ? "optimal" : "greedy"},
+          {"minimization", o.model.expansion ? "alpha-expansion" : "exact"}};
 }
 
 Json describeDirections(const Result& r) {
+  const std::vector<Eigen::Vector3d>& found = r.cloud.state.directions;
+  std::vector<std::size_t> num_points(found.size(), 0);
+  for (const int direction : r.cloud.groups(stages::Direction)) {
+    if (direction >= 0) ++num_points[static_cast<std::size_t>(direction)];
+  }
   Json directions = Json::array();
-  for (std::size_t i = 0; i < r.directions.size(); ++i) {
-    directions.push_back(
-        {{"normal", vector(r.directions[i])},
-         {"azimuth_deg", std::atan2(r.directions[i].y(), r.directions[i].x()) * kDegrees},
-         {"points", r.direction_points[i]}});
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    directions.push_back({{"normal", vector(found[i])},
+                          {"azimuth_deg", std::atan2(found[i].y(), found[i].x()) * kDegrees},
+                          {"points", num_points[i]}});
   }
   return directions;
 }
 
 Json describeSlices(const Result& r) {
   Json failures = Json::array();
-  std::size_t good = 0;
-  for (std::size_t i = 0; i < r.stages.size(); ++i) {
-    if (r.stages[i].failure.empty()) {
-      ++good;
-    } else {
-      failures.push_back({{"slice", i}, {"reason", r.stages[i].failure}});
-    }
+  for (const stages::SliceFailure& failure : r.slices.failures) {
+    failures.push_back({{"slice", failure.slice}, {"reason", failure.reason}});
   }
-  return {{"thickness", r.slice_thickness},
-          {"count", r.stages.size()},
-          {"with_floorplan", good},
+  const std::vector<FloorplanLayer>& layers = r.slices.layers;
+  return {{"thickness", layers.empty() ? 0.0 : layers.front().z_max - layers.front().z_min},
+          {"count", layers.size()},
+          {"with_floorplan", layers.size() - r.slices.failures.size()},
           {"skipped", failures}};
 }
 
@@ -244,20 +247,23 @@ void writeReport(const std::string& path, const Options& options, const Result& 
   report["program"] = std::string("storey ") + STOREY_VERSION;
   report["input"] = describeInput(options, r);
   report["parameters"] = describeParameters(options);
-  report["normals"] = {{"estimated", r.normals_k > 0}, {"neighbors", r.normals_k}};
-  report["vertical"] = {{"up", vector(r.up)},
-                        {"taken_as_z", r.level},
-                        {"wall_share", r.vertical.wall_share},
-                        {"second_score", r.vertical.second_score},
-                        {"deviation_deg", r.vertical.deviation * kDegrees},
+  report["normals"] = {{"estimated", r.attitude.normals_k > 0},
+                       {"neighbors", r.attitude.normals_k}};
+  report["vertical"] = {{"up", vector(r.attitude.up)},
+                        {"taken_as_z", r.attitude.level},
+                        {"wall_share", r.attitude.vertical.wall_share},
+                        {"second_score", r.attitude.vertical.second_score},
+                        {"deviation_deg", r.attitude.vertical.deviation * kDegrees},
                         {"walls_turned_by_deg", turn(r.model.upright) * kDegrees}};
-  report["space"] = {{"side", r.inside ? "inside" : "outside"}, {"reason", r.side_reason}};
-  report["scale"] = {{"noise", r.noise},
-                     {"measured_noise", r.scale.noise},
-                     {"spacing", r.scale.spacing},
-                     {"density", r.scale.density},
-                     {"extent", r.scale.extent}};
-  report["planar"] = {{"T_k", r.planar_threshold}, {"points", r.planar.size()}};
+  report["space"] = {{"side", r.cloud.state.inside ? "inside" : "outside"},
+                     {"reason", r.attitude.side_reason}};
+  report["scale"] = {{"noise", r.cloud.state.noise},
+                     {"measured_noise", r.attitude.scale.noise},
+                     {"spacing", r.attitude.scale.spacing},
+                     {"density", r.attitude.scale.density},
+                     {"extent", r.attitude.scale.extent}};
+  report["planar"] = {{"T_k", r.cloud.state.planar_threshold},
+                      {"points", planarPoints(r.cloud).size()}};
   report["directions"] = describeDirections(r);
   report["slices"] = describeSlices(r);  // none where the floorplans are of the whole building
   report["building"] = describeBuilding(r);

@@ -117,7 +117,7 @@ Drawing drawNormals(const Reconstruction& r, View view) {
 }
 
 Drawing drawRegions(const Reconstruction& r, View view) {
-  const StageCloud cloud = r.readLabels("08_regions.pcd", 0);
+  const StageCloud cloud = r.readLabels("07_regions.pcd", 0);
   constexpr std::size_t kColours = 12;
   constexpr std::size_t kStep = 5;  // regions come slice by slice: neighbours far apart in hue
   Drawing drawing;
@@ -137,9 +137,9 @@ Drawing drawRegions(const Reconstruction& r, View view) {
 
 Drawing drawRefined(const Reconstruction& r, View view) {
   const StageCloud before = readStageCloud(r.file("05_normals.pcd"), "");
-  const StageCloud after = readStageCloud(r.file("07_refined.pcd"), "");
+  const StageCloud after = readStageCloud(r.file("08_refined.pcd"), "");
   if (before.positions.size() != after.positions.size()) {
-    throw io::Failure(io::BadInput, r.file("07_refined.pcd"),
+    throw io::Failure(io::BadInput, r.file("08_refined.pcd"),
                       "has not as many points as 05_normals.pcd", "run storey_reconstruct again");
   }
   std::vector<double> moved;

@@ -23,7 +23,7 @@ constexpr Colour kStick{90, 160, 90};
 constexpr Colour kFloorplan{245, 150, 130};
 
 // A slice in the clouds of the stages: the height of its points in the cloud, and which points of
-// 05_normals.pcd and 07_refined.pcd are its own. Those clouds hold one slice after the other.
+// 05_normals.pcd and 08_refined.pcd are its own. Those clouds hold one slice after the other.
 struct SliceRange {
   std::size_t first = 0;
   std::size_t count = 0;
@@ -184,11 +184,11 @@ Drawing drawSlice(const Reconstruction& r, std::optional<int> wanted) {
   const std::size_t chosen = chooseSlice(r, slices, lines, wanted);
   const SliceRange& slice = slices[chosen];
   const StageCloud before = readStageCloud(r.file("05_normals.pcd"), "");
-  const StageCloud after = readStageCloud(r.file("07_refined.pcd"), "");
+  const StageCloud after = readStageCloud(r.file("08_refined.pcd"), "");
   const std::size_t total = slices.back().first + slices.back().count;
   if (before.positions.size() != total || after.positions.size() != total) {
     throw io::Failure(io::BadInput, r.file("04_slices.pcd"),
-                      "is not of the same run as 05_normals.pcd and 07_refined.pcd",
+                      "is not of the same run as 05_normals.pcd and 08_refined.pcd",
                       "run storey_reconstruct again");
   }
   Lines floorplan = linesOf(lines, slice, thickness);

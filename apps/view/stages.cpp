@@ -51,15 +51,15 @@ std::vector<std::string> filesOf(Stage stage) {
     case Stage::Labels:
       return {"06_labels.pcd"};
     case Stage::Regions:
-      return {"08_regions.pcd"};
+      return {"07_regions.pcd"};
     case Stage::Refined:
-      return {"05_normals.pcd", "07_refined.pcd"};
+      return {"05_normals.pcd", "08_refined.pcd"};
     case Stage::Floorplans:
       return {"09_floorplans.vtk"};
     case Stage::Overlay:
       return {"01_upright.pcd", "model.ply", "floorplans.geojson"};
     case Stage::Slice:
-      return {"04_slices.pcd", "05_normals.pcd", "07_refined.pcd", "09_floorplans.vtk"};
+      return {"04_slices.pcd", "05_normals.pcd", "08_refined.pcd", "09_floorplans.vtk"};
     default:
       return {"model.ply", "floorplans.geojson"};
   }

@@ -9,7 +9,7 @@
 
 #include "io/cloud_reader.h"
 #include "io/failure.h"
-#include "io/pcd_writer.h"
+#include "io/cloud_writer.h"
 #include "temporary_files.h"
 
 namespace storey {
@@ -198,7 +198,7 @@ TEST(CloudReader, WhatPclWritesIsReadBack) {
   check("pcd binary float32");
   ASSERT_EQ(writer.writeBinaryCompressed(path, cloud), 0);
   check("pcd binary_compressed float32");
-  io::writeCloudPcd(path, cloud);
+  io::writeCloud(path, cloud);
   check("pcd binary float32");
 }
 

@@ -13,7 +13,7 @@
 
 #include "io/failure.h"
 #include "io/output_file.h"
-#include "io/pcd_writer.h"
+#include "io/cloud_writer.h"
 #include "temporary_files.h"
 
 namespace storey {
@@ -121,7 +121,7 @@ TEST(OutputFile, FullDeviceIsNoticed) {
   EXPECT_EQ(statusOf([] { writeFile("/dev/full", std::string(kLarge, 'x')); }), io::IoError);
   pcl::PointCloud<pcl::PointXYZ> cloud;
   cloud.push_back({1, 2, 3});
-  EXPECT_EQ(statusOf([&] { io::writeCloudPcd("/dev/full", cloud); }), io::IoError);
+  EXPECT_EQ(statusOf([&] { io::writeCloud("/dev/full", cloud); }), io::IoError);
   struct stat status {};
   ASSERT_EQ(stat("/dev/full", &status), 0);
   EXPECT_TRUE(S_ISCHR(status.st_mode)) << "the device was replaced by a file";

@@ -42,7 +42,7 @@ Outcome reconstructCloud(const synth::SyntheticCloud& cloud,
   options.quiet = true;
   synth::writeCloudPly(options.input, cloud, synth::needsDouble(cloud), with_normals);
   Outcome outcome;
-  outcome.result = reconstruct(options, [](const std::string&) {});
+  outcome.result = reconstruct(options);
   io::PolygonSoup model = io::toPolygons(outcome.result.model.model);
   for (Eigen::Vector3d& v : model.vertices) v = outcome.result.local_to_input * v;
   io::PolygonSoup truth = io::toPolygons(extrudeFloorplans(layers));
@@ -88,7 +88,7 @@ TEST(Pipeline, IsTheSameInEveryPose) {
       EXPECT_EQ(outcome.evaluation.model.polygons, outcome.evaluation.truth.polygons)
           << scale << " " << offset;
       EXPECT_GT(outcome.evaluation.overlap.iou(), 0.99) << scale << " " << offset;
-      EXPECT_FALSE(outcome.result.level);
+      EXPECT_FALSE(outcome.result.attitude.level);
     }
   }
 }
@@ -117,10 +117,8 @@ TEST(Pipeline, TakesACloudInMemoryAsItTakesAFile) {
   synth::writeCloudPly(options.input,
                        synth::sampleBuilding(synth::makeBuilding("box").layers, sampling()), false,
                        true);
-  const auto silent = [](const std::string&) {};
-  const PolyhedralModel from_file = reconstruct(options, silent).model.model;
-  const PolyhedralModel from_memory =
-      reconstruct(io::readCloud(options.input), {}, silent).model.model;
+  const PolyhedralModel from_file = reconstruct(options).model.model;
+  const PolyhedralModel from_memory = reconstruct(io::readCloud(options.input), {}).model.model;
   EXPECT_FALSE(from_memory.empty());
   EXPECT_EQ(from_file.vertices, from_memory.vertices);
 }
@@ -175,7 +173,7 @@ TEST(Pipeline, TakesAnEnclosedSpaceForWhatItIs) {
   synth::SyntheticCloud yard = synth::sampleBuilding(layers, sampling());
   for (Eigen::Vector3d& n : yard.normals) n = -n;
   const Outcome outcome = reconstructCloud(yard, layers, {}, {});
-  EXPECT_TRUE(outcome.result.inside);
+  EXPECT_TRUE(outcome.result.cloud.state.inside);
   EXPECT_TRUE(outcome.result.model.check.ok());
   EXPECT_GT(outcome.evaluation.overlap.iou(), 0.99);
 }

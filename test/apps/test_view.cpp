@@ -117,7 +117,7 @@ TEST(StageFiles, CloudsOfOurWriterComeBack) {
     p.intensity = 0.2f * f;
     cloud.push_back(p);
   }
-  io::writeCloudPcd(box.file("02_confidence.pcd"), cloud);
+  io::writeCloud(box.file("02_confidence.pcd"), cloud);
   const StageCloud read = readStageCloud(box.file("02_confidence.pcd"), "intensity");
   ASSERT_EQ(read.positions.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) {
@@ -147,7 +147,7 @@ TEST(StageFiles, NumbersThatCannotBeDrawnAreRefused) {
   const BoxReconstruction box;
   pcl::PointCloud<pcl::PointNormal> cloud;
   cloud.push_back({0.0f, std::numeric_limits<float>::infinity(), 0.0f});
-  io::writeCloudPcd(box.file("a.pcd"), cloud);
+  io::writeCloud(box.file("a.pcd"), cloud);
   EXPECT_EQ(statusOf([&] { readStageCloud(box.file("a.pcd"), ""); }), io::BadInput);
   const std::string head = "# vtk\na\nASCII\nDATASET POLYDATA\n";
   for (const char* const body :

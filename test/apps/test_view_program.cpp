@@ -128,7 +128,7 @@ TEST(ViewProgram, AllPicturesAreWrittenForWhichThereAreFiles) {
   const Outcome outcome = runView(box.path() + " --pictures --size 400x400", prefix);
   EXPECT_EQ(outcome.status, 0) << outcome.message;
   for (const char* const name :
-       {"04_slices.png", "05_normals.png", "07_refined.png", "09_slice.png", "09_floorplans.png",
+       {"04_slices.png", "05_normals.png", "08_refined.png", "09_slice.png", "09_floorplans.png",
         "11_model.png", "11_model_top.png", "12_overlay.png"}) {
     EXPECT_TRUE(std::filesystem::exists(box.file(name))) << name;
   }

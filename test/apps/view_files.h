@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/model_io.h"
-#include "io/pcd_writer.h"
+#include "io/cloud_writer.h"
 #include "temporary_files.h"
 
 namespace storey::test {
@@ -67,10 +67,10 @@ class BoxReconstruction {
         after.push_back({p.x, 0.0f, p.z, 0.0f, -1.0f, 0.0f});
       }
     }
-    io::writeCloudPcd(file("01_upright.pcd"), before);
-    io::writeCloudPcd(file("04_slices.pcd"), sliced);
-    io::writeCloudPcd(file("05_normals.pcd"), before);
-    io::writeCloudPcd(file("07_refined.pcd"), after);
+    io::writeCloud(file("01_upright.pcd"), before);
+    io::writeCloud(file("04_slices.pcd"), sliced);
+    io::writeCloud(file("05_normals.pcd"), before);
+    io::writeCloud(file("08_refined.pcd"), after);
     directory_.write("09_floorplans.vtk",
                      "# vtk DataFile Version 3.0\nstorey\nASCII\nDATASET POLYDATA\n"
                      "POINTS 4 double\n0 0 3\n4 0 3\n4 3 3\n0 3 3\nLINES 1 6\n5 0 1 2 3 0\n");

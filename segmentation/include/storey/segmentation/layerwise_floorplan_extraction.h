@@ -5,37 +5,17 @@
 #include <pcl/pcl_base.h>
 #include <pcl/point_types.h>
 #include <storey/filters/eigen_alignment.h>
-#include <storey/segmentation/slice_floorplan_extraction.h>
+#include <storey/segmentation/slice_stages.h>
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace storey {
 
-/// All that is known of one slice on its way from points to a floorplan. The clouds are parallel:
-/// point i of each is point `indices[i]` of the input.
-template <typename PointT>
-struct SliceStages {
-  double z_min = 0.0;
-  double z_max = 0.0;
-  pcl::Indices indices;
-  pcl::PointCloud<PointT> projected;       ///< onto the horizontal plane at mid-height
-  pcl::PointCloud<PointT> smoothed;        ///< normals by (1)-(3)
-  std::vector<int> labels;                 ///< index of the direction by (4)-(6); -1: none
-  std::vector<pcl::PointIndices> regions;  ///< edge regions, of points of the slice
-  std::vector<int> region_labels;          ///< parallel to `regions`
-  pcl::PointCloud<PointT> refined;         ///< positions by (7)-(8), normals of the labels
-  std::vector<detail::LineSegment> segments;
-  Floorplan floorplan;
-  std::string failure;  ///< why there is no floorplan; empty if there is one
-};
-
 /// The first room of the house: the floorplans of all slices of a building [Sui et al. 2016,
-/// section 3]. Cuts the cloud along gravity and takes each slice through `projectSlice`,
-/// `AnisotropicNormalEstimation`, `DominantDirectionLabeling`, `EdgeRegionGrowing`,
-/// `AnisotropicPositionRefinement` and `SliceFloorplanExtraction`. Slices are independent and run
-/// in parallel; the result does not depend on the number of threads.
+/// section 3]. Cuts the cloud along gravity and takes each slice through the steps of
+/// `slice_stages.h`. Slices are independent and run in parallel; the result does not depend on the
+/// number of threads.
 ///
 /// Needs an upright cloud (+z is up) with outward normals; only the indexed points are used.
 template <typename PointT>
@@ -92,7 +72,6 @@ class LayerwiseFloorplanExtraction : public pcl::PCLBase<PointT> {
   bool parametersValid() const;
   bool prepare(std::vector<pcl::PointIndices>& slices);
   void processSlice(const pcl::PointIndices& slice, SliceStages<PointT>& stages) const;
-  void labelAndRefine(SliceStages<PointT>& stages) const;
 
   std::vector<Eigen::Vector3d> directions_;
   std::vector<Eigen::Vector3d> used_directions_;

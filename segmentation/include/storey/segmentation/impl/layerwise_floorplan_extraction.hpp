@@ -2,15 +2,11 @@
 #pragma once
 
 #include <pcl/console/print.h>
-#include <storey/features/anisotropic_normal_estimation.h>
 #include <storey/features/detail/thread_count.h>
-#include <storey/filters/anisotropic_position_refinement.h>
 #include <storey/filters/detail/indices.h>
 #include <storey/filters/gravity_slicing.h>
 #include <storey/segmentation/detail/indexed_scale.h>
 #include <storey/segmentation/dominant_direction_clustering.h>
-#include <storey/segmentation/dominant_direction_labeling.h>
-#include <storey/segmentation/edge_region_growing.h>
 
 #include <algorithm>
 #include <cmath>
@@ -64,38 +60,6 @@ bool LayerwiseFloorplanExtraction<PointT>::prepare(std::vector<pcl::PointIndices
 }
 
 template <typename PointT>
-void LayerwiseFloorplanExtraction<PointT>::labelAndRefine(SliceStages<PointT>& stages) const {
-  const auto smoothed = pcl::make_shared<pcl::PointCloud<PointT>>(stages.smoothed);
-  DominantDirectionLabeling<PointT> labeling;
-  labeling.setInputCloud(smoothed);
-  labeling.setDirections(used_directions_);
-  const auto labels = pcl::make_shared<pcl::PointCloud<pcl::Label>>();
-  labeling.segment(*labels);
-  // From here on the normal of a point is that of its label.
-  const auto labelled = pcl::make_shared<pcl::PointCloud<PointT>>(*smoothed);
-  stages.labels.assign(smoothed->size(), -1);
-  for (std::size_t i = 0; i < labels->size(); ++i) {
-    const std::uint32_t label = (*labels)[i].label;
-    if (label >= used_directions_.size()) continue;
-    stages.labels[i] = static_cast<int>(label);
-    (*labelled)[i].getNormalVector3fMap() = used_directions_[label].template cast<float>();
-  }
-  EdgeRegionGrowing<PointT> growing;
-  growing.setInputCloud(smoothed);
-  growing.setLabels(labels);
-  growing.extract(stages.regions);
-  for (const std::uint32_t label : growing.getRegionLabels()) {
-    stages.region_labels.push_back(static_cast<int>(label));
-  }
-  AnisotropicPositionRefinement<PointT> refinement;
-  refinement.setInputCloud(labelled);
-  refinement.setRegions(stages.regions);
-  refinement.setKSearch(k_);
-  refinement.setNumberOfThreads(1);
-  refinement.filter(stages.refined);
-}
-
-template <typename PointT>
 void LayerwiseFloorplanExtraction<PointT>::processSlice(const pcl::PointIndices& slice,
                                                         SliceStages<PointT>& stages) const {
   stages.indices = slice.indices;
@@ -103,29 +67,14 @@ void LayerwiseFloorplanExtraction<PointT>::processSlice(const pcl::PointIndices&
     stages.failure = "no points";
     return;
   }
-  const auto projected = pcl::make_shared<pcl::PointCloud<PointT>>();
-  projectSlice(*this->input_, slice, 0.5 * (stages.z_min + stages.z_max), *projected);
-  AnisotropicNormalEstimation<PointT> smoothing;
-  smoothing.setInputCloud(projected);
-  smoothing.setInputNormals(projected);
-  smoothing.setKSearch(k_);
-  smoothing.setNumberOfThreads(1);
-  smoothing.compute(stages.smoothed);
-  labelAndRefine(stages);
-
-  SliceFloorplanExtraction<PointT> extraction;
-  extraction.setInputCloud(pcl::make_shared<pcl::PointCloud<PointT>>(stages.refined));
-  extraction.setRegions(stages.regions, stages.region_labels);
-  extraction.setDirections(used_directions_);
-  extraction.setNoise(used_noise_);
-  extraction.setLinkingMethod(method_);
-  extraction.extract(stages.floorplan);
-  stages.failure = extraction.getFailure();
-  stages.segments = extraction.getSegments();
-  if (keep_stages_) {
-    stages.projected = *projected;
-    return;
-  }
+  const SliceStageOptions options{used_directions_, used_noise_, k_, method_};
+  smoothSlice(*this->input_, options, stages);
+  labelSlice(options, stages);
+  growSliceRegions(stages);
+  refineSlice(options, stages);
+  outlineSlice(options, stages);
+  if (keep_stages_) return;
+  stages.projected = {};
   stages.smoothed = {};
   stages.refined = {};
   stages.labels = {};

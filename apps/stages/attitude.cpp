@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/attitude.h"
+
+#include <pcl/common/transforms.h>
+#include <storey/features/normal_side.h>
+#include <storey/features/outward_normal_orientation.h>
+#include <storey/features/pca_normals.h>
+#include <storey/filters/detail/wall_relief.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace storey::stages {
+namespace {
+
+// The vertical is taken as +z if it is not further off than its accuracy explains.
+constexpr double kLevelDeviations = 4.0;
+constexpr double kLevelFloor = 1e-4;  // rad, where the accuracy is not known
+// A building must show its walls: normals of all directions alike have a share of 0.105 within 6
+// degrees of level, and buildings seen from a drone 0.14 and more.
+constexpr double kMinWallShare = 0.07;
+constexpr double kMaxWallTilt = 0.61;  // sin(35 degrees) = 0.57; see GravitySlicing
+
+const char* const kWallsHint =
+    "storey needs a cloud that shows the walls, from the ground or a drone";
+
+double noiseOfWalls(const Cloud& cloud, const pcl::Indices& walls, const CloudScale& scale) {
+  std::vector<Eigen::Vector3f> positions;
+  std::vector<Eigen::Vector3f> normals;
+  for (const pcl::index_t i : walls) {
+    const Point& p = cloud[static_cast<std::size_t>(i)];
+    positions.push_back(p.getVector3fMap());
+    normals.push_back(p.getNormalVector3fMap());
+  }
+  return storey::detail::estimateWallNoise(positions, normals, scale.noise, scale.extent);
+}
+
+}  // namespace
+
+std::string estimateMissingNormals(StageCloud& cloud, const AttitudeOptions& options,
+                                   unsigned int threads, Attitude& found) {
+  if (cloud.has_normals && !options.estimate_normals) return "given";
+  found.normals_k = estimateNormals(*cloud.points, 0, threads);
+  cloud.has_normals = true;
+  return format("estimated from %d neighbours", found.normals_k);
+}
+
+std::string setUpright(StageCloud& cloud, const AttitudeOptions& options, unsigned int threads,
+                       Attitude& found) {
+  VerticalDirectionEstimation<Point> estimation;
+  estimation.setInputCloud(cloud.points);
+  estimation.setInitialUp(options.up);
+  estimation.setNumberOfThreads(threads);
+  if (!estimation.compute(found.up)) refuse(cloud, "the vertical cannot be found", "give --up");
+  found.vertical = estimation.getQuality();
+  const double tilt = std::acos(std::clamp(found.up.z(), -1.0, 1.0));
+  found.level = tilt <= std::max(kLevelDeviations * found.vertical.deviation, kLevelFloor);
+  if (found.level) {
+    found.up = Eigen::Vector3d::UnitZ();
+  } else {
+    const Eigen::Quaterniond upright = estimation.getRotation();
+    pcl::transformPointCloudWithNormals(*cloud.points, *cloud.points,
+                                        Eigen::Affine3f(Eigen::Quaternionf(upright.cast<float>())));
+    cloud.state.frame_to_input.rotate(upright.conjugate());
+  }
+  if (found.vertical.wall_share < kMinWallShare) {
+    refuse(cloud,
+           format("only %.1f %% of the normals are level, too few walls for a model",
+                  100.0 * found.vertical.wall_share),
+           kWallsHint);
+  }
+  return format("up = %.4f %.4f %.4f, %.3f deg off z%s, %.0f %% of the normals are level",
+                found.up.x(), found.up.y(), found.up.z(), tilt * 180.0 / M_PI,
+                found.level ? " (taken as z)" : "", 100.0 * found.vertical.wall_share);
+}
+
+std::string orientOutwards(StageCloud& cloud, const AttitudeOptions& options, unsigned int threads,
+                           Attitude& found) {
+  bool& inside = cloud.state.inside;
+  if (found.normals_k > 0) {
+    OutwardNormalOrientation<Point> orientation;
+    orientation.setInputCloud(cloud.points);
+    orientation.setNumberOfThreads(threads);
+    const auto oriented = pcl::make_shared<Cloud>();
+    orientation.orient(*oriented);
+    cloud.points = oriented;
+    inside = options.side == SpaceSide::Inside;
+    found.side_reason = "normals estimated";
+  } else {
+    const NormalSideEvidence side = detectNormalSide(*cloud.points, Eigen::Vector3d::UnitZ());
+    inside = options.side == SpaceSide::Inside ||
+             (options.side == SpaceSide::Auto && side.side == NormalSide::Space);
+    found.side_reason = format("outwardness %.2f", side.outwardness);
+  }
+  // Inside a space the normals of its walls point to its middle: turned, they point out of it.
+  if (inside) {
+    for (Point& p : *cloud.points) p.getNormalVector3fMap() *= -1.0f;
+  }
+  return format("%s (%s)", inside ? "a space seen from inside" : "a building seen from outside",
+                found.side_reason.c_str());
+}
+
+std::string measureScale(StageCloud& cloud, double given_noise, CloudScale& scale) {
+  requireNormals(cloud);
+  pcl::Indices walls;
+  for (std::size_t i = 0; i < cloud.points->size(); ++i) {
+    if (std::abs((*cloud.points)[i].normal_z) < std::sin(kMaxWallTilt)) {
+      walls.push_back(static_cast<pcl::index_t>(i));
+    }
+  }
+  if (walls.empty()) refuse(cloud, "none of its normals is level: no walls", kWallsHint);
+  scale = estimateCloudScale(Cloud(*cloud.points, walls));
+  cloud.state.density = scale.density;
+  cloud.state.noise = given_noise > 0.0 ? given_noise : noiseOfWalls(*cloud.points, walls, scale);
+  return format("noise %.3g (walls %.3g), spacing %.3g, %.3g points per unit of wall, extent %.3g",
+                scale.noise, cloud.state.noise, scale.spacing, scale.density, scale.extent);
+}
+
+void ensureScale(StageCloud& cloud) {
+  if (cloud.state.noise > 0.0 && cloud.state.density > 0.0) return;
+  CloudScale scale;
+  measureScale(cloud, cloud.state.noise, scale);
+}
+
+}  // namespace storey::stages

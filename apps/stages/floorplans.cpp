@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/floorplans.h"
+
+#include <storey/segmentation/wall_extraction.h>
+
+#include "stages/attitude.h"
+
+namespace storey::stages {
+
+std::string extractBlocks(StageCloud& cloud, double block_cost, const SimplicityOptions& simplicity,
+                          std::vector<FloorplanLayer>& blocks,
+                          storey::detail::BuildingFloorplans& found) {
+  ensureScale(cloud);
+  BuildingFloorplanExtraction<Point> extraction;
+  extraction.setInputCloud(cloud.points);
+  extraction.setIndices(pcl::make_shared<pcl::Indices>(planarPoints(cloud)));
+  extraction.setNoise(cloud.state.noise);
+  extraction.setDensity(cloud.state.density);
+  extraction.setBlockCost(block_cost);
+  extraction.setMaxFaces(static_cast<std::size_t>(simplicity.max_faces));
+  extraction.setMaxTypes(static_cast<std::size_t>(simplicity.max_types));
+  extraction.setWholeTradeOff(simplicity.trade_off);
+  if (!extraction.extract(blocks)) {
+    refuse(cloud, "the walls enclose no building",
+           "is half of it missing, or the vertical wrong (--up)?");
+  }
+  found = extraction.getResult();
+  return format("%zu walls, %zu cells, %zu layers in %zu blocks", found.walls.size(),
+                found.plan.cells.size(), found.levels.size() - 1, blocks.size());
+}
+
+std::string extractWalls(StageCloud& cloud, double min_area,
+                         std::vector<storey::detail::WallLine>& lines) {
+  ensureScale(cloud);
+  WallExtraction<Point> extraction;
+  extraction.setInputCloud(cloud.points);
+  extraction.setIndices(pcl::make_shared<pcl::Indices>(planarPoints(cloud)));
+  extraction.setNoise(cloud.state.noise);
+  extraction.setDensity(cloud.state.density);
+  extraction.setMinWallArea(min_area);
+  std::vector<pcl::PointIndices> walls;
+  extraction.extract(walls);
+  if (walls.empty())
+    refuse(cloud, "shows no wall", "is the vertical wrong (storey_vertical --up)?");
+  lines = extraction.getLines();
+  std::vector<int>& wall_of = cloud.groups(Wall);
+  wall_of.assign(cloud.points->size(), -1);
+  std::size_t num_points = 0;
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    num_points += walls[w].indices.size();
+    for (const pcl::index_t i : walls[w].indices) {
+      wall_of[static_cast<std::size_t>(i)] = static_cast<int>(w);
+    }
+  }
+  return format("%zu walls, %zu of %zu points on them", walls.size(), num_points,
+                cloud.points->size());
+}
+
+}  // namespace storey::stages

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stages/model.h"
+
+#include <storey/surface/layerwise_mrf_reconstruction.h>
+
+#include "stages/attitude.h"
+
+namespace storey::stages {
+
+std::string buildModel(StageCloud& cloud, const std::vector<FloorplanLayer>& layers, Method method,
+                       int max_types, const ModelOptions& options, LayerwiseModel& model) {
+  ensureScale(cloud);
+  LayerwiseMRFReconstruction<Point> reconstruction;
+  reconstruction.setInputCloud(cloud.points);
+  if (method == Method::Paper) {
+    reconstruction.setFloorplans(layers);
+  } else {
+    reconstruction.setBlocks(layers);
+  }
+  reconstruction.setNoise(cloud.state.noise);
+  reconstruction.setSmoothness(options.smoothness);
+  reconstruction.setLabelCost(options.label_cost);
+  reconstruction.setMaxTypes(static_cast<std::size_t>(max_types));
+  reconstruction.setEncoding(options.encoding);
+  reconstruction.setExactMinimization(!options.expansion);
+  reconstruction.setGrid(options.grid);
+  pcl::PolygonMesh mesh;
+  reconstruction.reconstruct(mesh);
+  model = reconstruction.getResult();
+  if (model.model.empty()) {
+    refuse(cloud, "the floorplans enclose no solid", "look at the slices with --intermediate");
+  }
+  return format("%d floorplan types in %zu blocks, %zu polygons, %s", model.dominant.num_types,
+                model.model.storeys.size(), model.model.faces.size(),
+                model.check.ok() ? "closed and valid" : "NOT VALID");
+}
+
+Eigen::Isometry3d modelToInput(const StageCloud& cloud, const LayerwiseModel& model) {
+  return cloud.state.frame_to_input * model.upright.inverse();
+}
+
+}  // namespace storey::stages

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <storey/surface/floorplan_grammar.h>
+#include <storey/surface/layerwise_model.h>
+
+#include <vector>
+
+#include "stages/floorplans.h"
+#include "stages/stage_cloud.h"
+
+namespace storey::stages {
+
+struct ModelOptions {
+  double smoothness = 0.1;  ///< eta1, method paper
+  double label_cost = 0.5;  ///< eta2, method paper
+  FloorplanGrammar::Encoding encoding = FloorplanGrammar::Encoding::Walls;
+  bool expansion = false;  ///< minimise by alpha-expansion instead of exactly
+  double grid = 0.0;       ///< unit of the vertices, length; 0: derived
+};
+
+/// The solid over the floorplans, fitted to all points.
+/// \param layers of slices or of blocks, as `method` says
+/// \return a line that says what was found \throws io::Failure (BadInput) if there is no solid
+std::string buildModel(StageCloud& cloud, const std::vector<FloorplanLayer>& layers, Method method,
+                       int max_types, const ModelOptions& options, LayerwiseModel& model);
+
+/// Takes a model to the coordinates of the file that the first stage read.
+Eigen::Isometry3d modelToInput(const StageCloud& cloud, const LayerwiseModel& model);
+
+}  // namespace storey::stages
