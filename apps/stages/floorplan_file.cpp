@@ -116,6 +116,17 @@ StageFloorplans fromJson(const Json& collection, const io::InputFile& file) {
   return floorplans;
 }
 
+/// What is of use for a model: not how the floorplans were found.
+StageState lastingState(const StageState& state) {
+  StageState lasting;
+  lasting.frame_to_input = state.frame_to_input;
+  lasting.crs = state.crs;
+  lasting.inside = state.inside;
+  lasting.noise = state.noise;
+  lasting.density = state.density;
+  return lasting;
+}
+
 }  // namespace
 
 void writeFloorplans(const std::string& path, const StageFloorplans& floorplans) {
@@ -124,7 +135,7 @@ void writeFloorplans(const std::string& path, const StageFloorplans& floorplans)
   io::addCrs(floorplans.state.crs, collection);
   collection["frame_to_input"] = io::matrixRows(floorplans.state.frame_to_input);
   collection["layers_of"] = kLayersOf[static_cast<int>(floorplans.method)];
-  collection["state"] = toNotes(floorplans.state);
+  collection["state"] = toNotes(lastingState(floorplans.state));
   collection["features"] = Json::array();
   for (const FloorplanLayer& layer : floorplans.layers) {
     collection["features"].push_back(toFeature(layer));
