@@ -7,6 +7,7 @@
 #include "io/cloud_offset.h"
 #include "io/failure.h"
 #include "io/input_file.h"
+#include "io/line_of_sight.h"
 #include "io/point_index.h"
 #include "io/raw_cloud.h"
 
@@ -72,7 +73,11 @@ void judgeNormals(const RawCloud& raw, LoadedCloud& loaded) {
 
 LoadedCloud readCloud(const std::string& path, const CloudReaderOptions& options) {
   InputFile file(path, options.max_bytes);
-  return conditionCloud(readRawCloud(file, options.max_memory), file);
+  RawCloud raw = readRawCloud(file, options.max_memory);
+  const std::size_t turned = turnToViewers(path, options.max_memory, raw);
+  LoadedCloud loaded = conditionCloud(raw, file);
+  loaded.turned_normals = turned;
+  return loaded;
 }
 
 LoadedCloud conditionCloud(const RawCloud& raw, const InputFile& file) {

@@ -37,6 +37,7 @@ struct LoadedCloud {
   std::size_t dropped_non_finite = 0;    ///< NaN, infinite, or too far out for float distances
   std::size_t collapsed_duplicates = 0;  ///< further points at the place of an earlier one
   std::size_t zero_normals = 0;          ///< normals of the file that cannot be used
+  std::size_t turned_normals = 0;        ///< to the photos that saw their points
   std::string format;                    ///< e.g. "ply binary_little_endian float64"
 };
 
@@ -46,8 +47,10 @@ struct CloudReaderOptions {
 };
 
 /// Reads a PCD (ascii, binary, binary_compressed) or PLY (ascii, binary of both byte orders) file,
-/// told apart by their content. Coordinates may be float, double or integers; normals are taken
-/// from `normal_x ..` or `nx ..`; further fields, lists and elements are passed over.
+/// LAS, the points of legacy VTK, PMVS's patches or lines of numbers (`import_formats.h`), told
+/// apart by their content. Coordinates may be float, double or integers; normals are taken
+/// from `normal_x ..` or `nx ..`; further fields, lists and elements are passed over. Where photos
+/// are known that saw the points, the normals are turned to them (`turnToViewers`).
 /// No number in the file is trusted: whatever is wrong ends in a `Failure` before memory is taken.
 /// \throws Failure (BadInput, MissingInput, IoError)
 LoadedCloud readCloud(const std::string& path, const CloudReaderOptions& options = {});

@@ -44,12 +44,19 @@ struct ExtraColumn {
   std::vector<double> values;  ///< one a point
 };
 
+/// Which photos saw each point, where a file says so.
+struct Viewers {
+  std::vector<std::uint32_t> photos;  ///< of all points, one after the other
+  std::vector<std::size_t> ends;      ///< for each point, where its photos end
+};
+
 /// Points as they are in the file: double precision, nothing dropped.
 struct RawCloud {
   std::vector<double> positions;    ///< 3 a point
   std::vector<float> normals;       ///< 3 a point, or none at all
   std::vector<ExtraColumn> extras;  ///< the fields that were asked for and are there
   std::vector<std::string> notes;   ///< comments of the header that are ours, see `noteOf`
+  Viewers viewers;
   bool has_normal_fields = false;
   std::uint64_t declared = 0;
   std::string format;

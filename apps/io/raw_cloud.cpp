@@ -1,21 +1,65 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/raw_cloud.h"
 
+#include <algorithm>
+
+#include "io/cloud_writer.h"
+#include "io/formats/import_formats.h"
+#include "io/limits.h"
 #include "io/pcd_reader.h"
 #include "io/ply_reader.h"
+#include "io/scan.h"
 
 namespace storey::io {
 
+namespace {
+
+bool startsWith(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
+}
+
+/// Whether the file begins with a line of numbers, or is called as such files are.
+bool isXyz(InputFile& file, std::string_view start) {
+  for (const char* extension : {".xyz", ".txt", ".pts", ".asc", ".csv"}) {
+    if (hasExtension(file.path(), extension)) return true;
+  }
+  const std::size_t end = std::min(start.find_first_of(" \t,;\r\n"), start.size());
+  double number = 0.0;
+  return parseNumber(start.substr(0, end), number);
+}
+
+}  // namespace
+
 RawCloud readRawCloud(InputFile& file, std::uint64_t max_memory,
                       const std::vector<std::string>& extras) {
-  const std::string_view start = file.peek(16);
-  if (start.substr(0, 4) == "ply\n" || start.substr(0, 5) == "ply\r\n") {
+  const std::string start(file.peek(64));
+  if (startsWith(start, "ply\n") || startsWith(start, "ply\r\n")) {
     return readPlyCloud(file, max_memory, extras);
   }
-  for (const char* first : {"#", "VERSION", "FIELDS", "COLUMNS"}) {
-    if (start.rfind(first, 0) == 0) return readPcd(file, max_memory, extras);
+  if (startsWith(start, "LASF")) return readLas(file, max_memory);
+  if (startsWith(start, "# vtk DataFile")) return readVtkPoints(file, max_memory);
+  if (startsWith(start, "PATCHES")) return readPatches(file, max_memory);
+  const bool is_xyz = isXyz(file, start);
+  for (const char* first : {"# .PCD", "VERSION", "FIELDS", "COLUMNS", "#"}) {
+    const bool any_comment = std::string_view(first) == "#";
+    if (startsWith(start, first) && !(any_comment && is_xyz)) {
+      return readPcd(file, max_memory, extras);
+    }
   }
-  file.fail("is neither a PCD nor a PLY file", "convert the cloud to one of the two");
+  if (is_xyz) return readXyz(file, max_memory);
+  file.fail("is neither PCD nor PLY, nor of another format that is read",
+            "convert it to PLY or PCD (LAS, VTK, PMVS patches and lines 'x y z' are read too)");
+}
+
+void checkPointCount(const InputFile& file, std::uint64_t num_points, std::uint64_t max_memory) {
+  if (num_points == 0) file.fail("declares no points");
+  if (num_points > kMaxPoints) {
+    file.fail("declares " + std::to_string(num_points) + " points, the limit is " +
+                  std::to_string(kMaxPoints),
+              "cut the building out of the cloud");
+  }
+  file.checkMemory(num_points * kLoaderBytesPerPoint, max_memory,
+                   std::to_string(num_points) + " points");
 }
 
 }  // namespace storey::io

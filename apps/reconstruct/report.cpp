@@ -48,6 +48,7 @@ Json describeInput(const Options& options, const Result& r) {
           {"dropped_non_finite", r.loaded.dropped_non_finite},
           {"collapsed_duplicates", r.loaded.collapsed_duplicates},
           {"zero_normals", r.loaded.zero_normals},
+          {"normals_turned_to_photos", r.loaded.turned_normals},
           {"offset", vector(r.loaded.offset)},
           {"crs", r.cloud.state.crs.empty() ? Json(nullptr) : Json(r.cloud.state.crs)}};
 }

@@ -6,6 +6,7 @@
 
 #include "io/cloud_writer.h"
 #include "io/failure.h"
+#include "io/line_of_sight.h"
 #include "io/raw_cloud.h"
 #include "stages/stage_notes.h"
 
@@ -142,9 +143,10 @@ StageCloud readStageCloud(const std::string& path) {
   io::InputFile file(path, options.max_bytes);
   std::vector<std::string> extras = {"curvature", "intensity"};
   extras.insert(extras.end(), kGroupNames.begin(), kGroupNames.end());
-  const io::RawCloud raw = io::readRawCloud(file, options.max_memory, extras);
+  io::RawCloud raw = io::readRawCloud(file, options.max_memory, extras);
   const std::optional<StageState> state = fromNotes(raw.notes, file);
   if (!state) {
+    io::turnToViewers(path, options.max_memory, raw);
     io::LoadedCloud loaded = io::conditionCloud(raw, file);
     return fromLoaded(loaded, path);
   }

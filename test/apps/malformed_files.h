@@ -32,9 +32,16 @@ std::string pcdHeader(int n, const std::string& data);
 std::string packPlain(const std::string& bytes);
 std::string compressedBody(std::uint32_t packed, std::uint32_t unpacked, const std::string& stream);
 
-/// The three kinds of malformed and odd files, by format.
+/// A LAS file with the sample points, of version 1.`minor`.
+std::string lasFile(int num_points, int minor, int format);
+
+/// Malformed and odd files, by format.
 std::vector<CorpusFile> malformedPcd();
 std::vector<CorpusFile> malformedPly();
+std::vector<CorpusFile> malformedLas();
+std::vector<CorpusFile> malformedVtk();
+std::vector<CorpusFile> malformedPatches();
+std::vector<CorpusFile> malformedXyz();
 std::vector<CorpusFile> malformedObj();  ///< `num_points` is the number of vertices
 
 }  // namespace storey::test

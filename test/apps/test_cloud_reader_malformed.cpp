@@ -83,6 +83,13 @@ void checkCorpus(const std::vector<CorpusFile>& corpus, const char* extension,
 TEST(MalformedClouds, PcdCorpus) { checkCorpus(test::malformedPcd(), ".pcd", readCloudFile); }
 TEST(MalformedClouds, PlyCorpus) { checkCorpus(test::malformedPly(), ".ply", readCloudFile); }
 
+TEST(MalformedClouds, LasCorpus) { checkCorpus(test::malformedLas(), ".las", readCloudFile); }
+TEST(MalformedClouds, VtkCorpus) { checkCorpus(test::malformedVtk(), ".vtk", readCloudFile); }
+TEST(MalformedClouds, PatchCorpus) {
+  checkCorpus(test::malformedPatches(), ".patch", readCloudFile);
+}
+TEST(MalformedClouds, XyzCorpus) { checkCorpus(test::malformedXyz(), ".xyz", readCloudFile); }
+
 TEST(MalformedClouds, TheExtensionDoesNotMatter) {
   checkCorpus(test::malformedPcd(), ".ply", readCloudFile);
   checkCorpus(test::malformedPly(), ".pcd", readCloudFile);
@@ -246,6 +253,34 @@ TEST(MutatedClouds, EveryByteOfACompressedBody) {
           << answer;
     }
   }
+}
+
+// Cut anywhere, or with any byte changed, a file of another format is refused or read: there is no
+// third way.
+TEST(MutatedClouds, ImportsCutAndChanged) {
+  const MemoryFile file;
+  int num_refused = 0;
+  const auto check = [&](const std::string& name, const std::string& content) {
+    const std::string answer = readCloudFile(file.write(content), 3);
+    const bool refused = answer.rfind("refused 65", 0) == 0;
+    num_refused += refused ? 1 : 0;
+    EXPECT_TRUE(refused || answer == "ok" || answer.rfind("wrong ", 0) == 0) << name << answer;
+  };
+  for (const std::vector<CorpusFile>& corpus :
+       {test::malformedLas(), test::malformedVtk(), test::malformedPatches()}) {
+    for (const CorpusFile& seed : corpus) {
+      if (seed.num_points != 3) continue;
+      for (std::size_t at = 1; at < seed.content.size(); ++at) {
+        check(seed.name, seed.content.substr(0, at));
+        for (const char changed : {'\0', '\xff', '9', '-', '\n'}) {
+          std::string content = seed.content;
+          content[at] = changed;
+          check(seed.name, content);
+        }
+      }
+    }
+  }
+  EXPECT_GT(num_refused, 1000);  // the sweep did take place
 }
 
 }  // namespace
