@@ -6,8 +6,8 @@ namespace storey::reconstruct {
 bool parseOptions(int argc, char** argv, Options& o) {
   cli::CommandLine line(
       "storey_reconstruct", {"CLOUD -o DIRECTORY [options]"},
-      "Makes a small closed model of a building from its point cloud (.ply or .pcd, with or\n"
-      "without normals). Writes model.ply, model.obj, floorplans.geojson and report.json.\n"
+      "Makes a small closed model of a building from its point cloud (PLY, PCD, LAS, VTK, PMVS\n"
+      "patches or lines x y z, with or without normals). Writes model.ply, model.obj, floorplans.geojson and report.json.\n"
       "Lengths are in the cloud's unit; those that are not given are derived from the cloud.");
   line.argument("cloud", o.input, "the cloud");
   line.text("output,o", o.output_directory, "directory for the results; made if missing");

@@ -18,7 +18,7 @@ int run(int argc, char** argv, const StageProgram& program) {
   unsigned int threads = 0;
   bool quiet = false;
   cli::CommandLine line(program.name, {"IN OUT [options]"}, program.text);
-  line.argument("in", input, "the cloud (.pcd, .ply)");
+  line.argument("in", input, "the cloud (PCD, PLY, LAS, VTK, PMVS patches, lines x y z)");
   line.argument("out", output, "the cloud with what was found (.pcd, .ply)");
   if (program.declare) program.declare(line);
   line.threads(threads);

@@ -30,7 +30,7 @@ bool parse(int argc, char** argv, Request& r) {
                         "a cloud of storey_planar_confidence (or any upright one with outward "
                         "normals); method paper\n"
                         "gives one floorplan a slice and wants a cloud of storey_positions.");
-  line.argument("in", r.input, "the cloud (.pcd, .ply)");
+  line.argument("in", r.input, "the cloud");
   line.argument("out", r.output, "the floorplans (.geojson), in the upright frame of the cloud");
   stages::declareMethod(line, r.method);
   stages::declareBlocks(line, r.block_cost, r.simplicity);
