@@ -7,10 +7,22 @@ namespace {
 
 namespace stages = storey::stages;
 
+/// What later stages found holds no longer once the cloud is turned.
+void startAgain(stages::StageCloud& cloud) {
+  stages::StageCloud fresh;
+  fresh.name = cloud.name;
+  fresh.points = cloud.points;
+  fresh.has_normals = cloud.has_normals;
+  fresh.state.frame_to_input = cloud.state.frame_to_input;
+  fresh.state.crs = cloud.state.crs;
+  cloud = std::move(fresh);
+}
+
 std::string prepare(stages::StageCloud& cloud, const stages::AttitudeOptions& options,
                     unsigned int threads) {
+  startAgain(cloud);
+  if (!options.crs.empty()) cloud.state.crs = options.crs;
   stages::Attitude found;
-  cloud.state.crs = options.crs;
   std::string lines = estimateMissingNormals(cloud, options, threads, found);
   lines = "normals " + lines + "\n" + setUpright(cloud, options, threads, found);
   lines += "\n" + orientOutwards(cloud, options, threads, found);
