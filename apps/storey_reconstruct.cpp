@@ -4,7 +4,6 @@
 
 #include "cli/command_line.h"
 #include "io/failure.h"
-#include "io/model_io.h"
 #include "io/output_file.h"
 #include "reconstruct/intermediate.h"
 #include "reconstruct/options.h"
@@ -23,12 +22,15 @@ int run(int argc, char** argv) {
 
   const Result result = reconstruct(options, progress);
   const io::OutputDirectory directory(options.output_directory);
-  const PolyhedralModel& model = result.model.model;
-  io::writeModelPly(directory.file("model.ply"), model, result.local_to_input);
-  io::writeModelObj(directory.file("model.obj"), model, result.local_to_input);
-  io::writeFloorplansGeoJson(directory.file("floorplans.geojson"), model, result.local_to_input);
+  const exports::Exported exported{result.model.model, result.local_to_input, options.epsg,
+                                   describe(options, result)};
+  for (const exports::Format& format : options.formats) {
+    format.write(directory.file(format.file), exported);
+  }
   if (options.intermediate) writeIntermediate(directory, result);
-  writeReport(directory.file("report.json"), options, result);  // last: all the others are there
+  io::OutputFile report(directory.file("report.json"));  // last: all the others are there
+  report.write(exported.report);
+  report.commit();
   if (!result.model.check.ok()) {
     throw io::Failure(io::Internal, options.input, "the model failed its checks",
                       "see report.json, and report it with the cloud");

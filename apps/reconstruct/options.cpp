@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruct/options.h"
 
+#include <charconv>
+#include <sstream>
+
 #include "cli/command_line.h"
 
 namespace storey::reconstruct {
@@ -30,6 +33,36 @@ void declareLayers(cli::CommandLine& line, Options& o) {
             "minimise the layers' energy by alpha-expansion, as the paper, instead of exactly");
 }
 
+std::string formatsHelp() {
+  std::string names;
+  for (const exports::Format& format : exports::allFormats()) {
+    names += std::string(names.empty() ? "" : ", ") + format.name + " (" + format.file + ")";
+  }
+  return "what is written, separated by commas: " + names;
+}
+
+std::vector<exports::Format> parseFormats(const cli::CommandLine& line, const std::string& text) {
+  std::vector<exports::Format> formats;
+  std::istringstream names(text);
+  for (std::string name; std::getline(names, name, ',');) {
+    const exports::Format* format = exports::findFormat(name);
+    if (format == nullptr) line.fail("--formats has '" + name + "'; " + formatsHelp());
+    formats.push_back(*format);
+  }
+  return formats;
+}
+
+int parseCrs(const cli::CommandLine& line, const std::string& text) {
+  const std::string authority = "EPSG:";
+  const char* end = text.data() + text.size();
+  int code = 0;
+  if (text.rfind(authority, 0) != 0 ||
+      std::from_chars(text.data() + authority.size(), end, code).ptr != end || code <= 0) {
+    line.fail("--crs is '" + text + "', expected EPSG: and a number above 0");
+  }
+  return code;
+}
+
 }  // namespace
 
 bool parseOptions(int argc, char** argv, Options& o) {
@@ -37,10 +70,15 @@ bool parseOptions(int argc, char** argv, Options& o) {
   cli::CommandLine line(
       "storey_reconstruct", {"CLOUD -o DIRECTORY [options]"},
       "Makes a small closed model of a building from its point cloud (.ply or .pcd, with or\n"
-      "without normals). Writes model.ply, model.obj, floorplans.geojson and report.json.\n"
+      "without normals). Writes it and its floorplans in the formats asked for, and report.json.\n"
       "Lengths are in the cloud's unit; those that are not given are derived from the cloud.");
   line.argument("cloud", o.input, "the cloud");
   line.text("output,o", o.output_directory, "directory for the results; made if missing");
+  std::string formats = "ply,obj,geojson,html";
+  line.text("formats", formats, formatsHelp());
+  std::string crs;
+  line.text("crs", crs,
+            "coordinate reference system of the cloud, EPSG:n, for the formats that name it");
   line.vector("up", o.up,
               "the direction up, good to 15 degrees [found from the walls, the side nearer to +z]");
   line.choice<SpaceSide>(
@@ -75,6 +113,8 @@ bool parseOptions(int argc, char** argv, Options& o) {
   if (!line.parse(argc, argv)) return false;
   if (o.input.empty()) line.fail("no cloud given");
   if (o.output_directory.empty()) line.fail("no output directory given (-o)");
+  o.formats = parseFormats(line, formats);
+  if (line.given("crs")) o.epsg = parseCrs(line, crs);
   if (line.given("up") && o.up.isZero()) line.fail("--up is zero, expected a direction");
   o.up.normalize();  // zero, where it is not given, stays zero
   return true;

@@ -6,6 +6,9 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
+
+#include "export/formats.h"
 
 namespace storey::reconstruct {
 
@@ -19,6 +22,8 @@ enum class Method { Building, Paper };
 struct Options {
   std::string input;
   std::string output_directory;
+  std::vector<exports::Format> formats;
+  int epsg = 0;  ///< coordinate reference system of the cloud; 0: not known
   Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< zero: found from the walls
   SpaceSide side = SpaceSide::Auto;
   Method method = Method::Building;
