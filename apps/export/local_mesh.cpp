@@ -18,6 +18,8 @@ Eigen::Vector3d normalOf(const PolyhedralModel& model, const PolyhedralFace& fac
   for (std::size_t i = 1; i + 1 < face.outer.size(); ++i) {
     area += (vertex(i) - vertex(0)).cross(vertex(i + 1) - vertex(0));
   }
+  // Walls are vertical, though the corners of one may stray from its plane by a grid unit.
+  if (face.label == FaceLabel::Wall) area.z() = 0.0;
   return area.normalized();
 }
 

@@ -238,13 +238,12 @@ TEST(CityJson, ABlockIsThePlanOfItsPartUpToItsTop) {
     const Json city = writeAndRead({model});
     std::multiset<double> found;
     for (const Json& geometry : geometriesOf(city, "1.2")) {
-      found.insert(
-          std::round(1000.0 * std::pow(model.grid, 3) * volumeOf(solidOf(city, geometry))));
+      found.insert(std::round(std::pow(model.grid, 3) * volumeOf(solidOf(city, geometry))));
     }
     return found;
   };
-  EXPECT_EQ(volumes(modelOf(stackedModels()[3].layers)), (std::multiset<double>{504000.0}));
-  EXPECT_EQ(volumes(modelOf(stackedModels()[6].layers)), (std::multiset<double>{1000.0, 24000.0}));
+  EXPECT_EQ(volumes(modelOf(stackedModels()[3].layers)), (std::multiset<double>{504.0}));
+  EXPECT_EQ(volumes(modelOf(stackedModels()[6].layers)), (std::multiset<double>{1.0, 24.0}));
 }
 
 }  // namespace
