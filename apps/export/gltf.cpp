@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "export/local_mesh.h"
@@ -48,7 +49,6 @@ class GltfBuilder {
     const Eigen::Vector3d origin = yUp(mesh_.origin);
     json_["nodes"] = Json::array(
         {{{"name", "building"}, {"translation", {origin.x(), origin.y(), origin.z()}}}});
-    addMaterials();
     for (int shell = 0; shell < exported.model.num_shells; ++shell) addShell(shell);
     json_["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
   }
@@ -57,15 +57,18 @@ class GltfBuilder {
   const std::string& bytes() const { return bytes_; }
 
  private:
-  void addMaterials() {
-    for (std::size_t m = 0; m < kNumMaterials; ++m) {
-      const auto [red, green, blue] = materialColour(m);
-      json_["materials"].push_back({{"name", materialName(m)},
+  // The index in the file of a material, which has only those that are used.
+  std::size_t useMaterial(std::size_t material) {
+    const auto [found, is_new] = materials_.emplace(material, materials_.size());
+    if (is_new) {
+      const auto [red, green, blue] = materialColour(material);
+      json_["materials"].push_back({{"name", materialName(material)},
                                     {"pbrMetallicRoughness",
                                      {{"baseColorFactor", {red, green, blue, 1.0}},
                                       {"metallicFactor", 0.0},
                                       {"roughnessFactor", 0.9}}}});
     }
+    return found->second;
   }
 
   void addShell(int shell) {
@@ -80,7 +83,7 @@ class GltfBuilder {
       Json attributes = {{"POSITION", addAccessor(corners[m].positions, 3, "VEC3")},
                          {"NORMAL", addAccessor(corners[m].normals, 3, "VEC3")},
                          {"_FACE", addAccessor(corners[m].faces, 1, "SCALAR")}};
-      primitives.push_back({{"attributes", std::move(attributes)}, {"material", m}});
+      primitives.push_back({{"attributes", std::move(attributes)}, {"material", useMaterial(m)}});
     }
     const std::string name = "shell_" + std::to_string(shell);
     json_["nodes"][0]["children"].push_back(json_["nodes"].size());
@@ -127,6 +130,7 @@ class GltfBuilder {
   const Exported& exported_;
   LocalMesh mesh_;
   Json json_;
+  std::map<std::size_t, std::size_t> materials_;
   std::string bytes_;
 };
 

@@ -6,9 +6,10 @@
   const KINDS = ['wall', 'roof', 'ground', 'ceiling'];
 
   // Red where there is nothing over yellow to green.
+  const RAMP = [0xc0453a, 0xe8c860, 0x4f9a5b].map(colour => new THREE.Color(colour));
   function ramp(share) {
-    const s = Math.min(1, Math.max(0, share));
-    return new THREE.Color(Math.min(1, 2 - 2 * s), Math.min(1, 2 * s) * 0.8, 0.2);
+    const s = 2 * Math.min(1, Math.max(0, share));
+    return s < 1 ? RAMP[0].clone().lerp(RAMP[1], s) : RAMP[1].clone().lerp(RAMP[2], s - 1);
   }
 
   const largestResidual = Math.max(1e-300, ...model.faces.map(face => face.residual));
