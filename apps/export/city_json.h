@@ -16,7 +16,8 @@ namespace storey::exports {
 /// Vertices are integers. Where `local_to_input` does not turn, they are the model's own lattice,
 /// on which `checkModel` holds exactly. Else the scale is a tenth of the grid: rounding moves
 /// vertices by less than 0.09 grid units, and none lies within half a unit of an edge of its
-/// shell that it is not an end of, so that no contact comes about.
+/// shell that it is not an end of. Corners within a straight run of a polygon then stray from it by
+/// as much; cut by a Delaunay triangulation, as checkers do, no two polygons touch for that.
 /// \throws io::Failure (CannotCreate, IoError)
 void writeCityJson(const std::string& path, const Exported& exported);
 

@@ -9,6 +9,8 @@
 #include <map>
 #include <numeric>
 
+#include "export/delaunay_flips.h"
+
 namespace storey::test {
 namespace {
 
@@ -89,11 +91,11 @@ class SolidChecker {
     if (high - low > 2.0 * planarity_) errors_.insert(IsoError::NotPlanar);
     Eigen::Index axis = 0;
     normal.cwiseAbs().maxCoeff(&axis);
+    const std::vector<detail::GridPoint> points = shadowOf(axis, normal[axis] < 0.0);
     PolyhedralModel shadow;  // a roof in the plane of the two other axes
     shadow.grid = 1.0;
-    for (std::size_t i = 0; i < solid_.vertices.size(); ++i) {
-      const Eigen::Vector3d p = at(static_cast<int>(i));
-      shadow.vertices.emplace_back(p[(axis + 1) % 3], p[(axis + 2) % 3], 0.0);
+    for (const detail::GridPoint& p : points) {
+      shadow.vertices.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y), 0.0);
     }
     PolyhedralFace face;
     face.label = FaceLabel::Roof;
@@ -101,7 +103,18 @@ class SolidChecker {
     face.inner.assign(polygon.begin() + 1, polygon.end());
     std::vector<Triangle> triangles = triangulateFace(shadow, face);
     if (triangles.empty()) errors_.insert(IsoError::NotAPolygon);
+    flipToDelaunay(triangles, points);
     return triangles;
+  }
+
+  // All vertices along an axis, seen from its other side if `mirrored`.
+  std::vector<detail::GridPoint> shadowOf(Eigen::Index axis, bool mirrored) const {
+    const auto u = static_cast<std::size_t>((axis + (mirrored ? 2 : 1)) % 3);
+    const auto v = static_cast<std::size_t>((axis + (mirrored ? 1 : 2)) % 3);
+    const LatticePoint& o = solid_.vertices[0];
+    std::vector<detail::GridPoint> points;
+    for (const LatticePoint& p : solid_.vertices) points.push_back({p[u] - o[u], p[v] - o[v]});
+    return points;
   }
 
   void checkShell(std::size_t s) {

@@ -2,6 +2,7 @@
 // The checker that other tests rely on finds what is wrong with a solid, and nothing else.
 #include <gtest/gtest.h>
 
+#include "export/delaunay_flips.h"
 #include "export/iso_solid.h"
 
 namespace storey::test {
@@ -50,6 +51,22 @@ TEST(IsoSolid, ABoxWithACavityIsValid) {
   solid.shells.push_back(insideOut(addBox(solid, 40, 40, 40, 20)));
   EXPECT_EQ(checkSolid(solid, kPlanarity), Errors{});
   EXPECT_DOUBLE_EQ(volumeOf(solid), 1e6 - 8000.0);
+}
+
+TEST(IsoSolid, SliversGiveWayToFans) {
+  // A square whose lower side bulges by one unit in its middle: no triangle needs to lie along it.
+  const std::vector<detail::GridPoint> points = {
+      {0, 0}, {1000, -1}, {2000, 0}, {2000, 2000}, {0, 2000}};
+  std::vector<std::array<int, 3>> triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}};
+  flipToDelaunay(triangles, points);
+  ASSERT_EQ(triangles.size(), 3u);
+  std::int64_t twice_area = 0;
+  for (const auto& [a, b, c] : triangles) {
+    const auto at = [&](int i) { return points[static_cast<std::size_t>(i)]; };
+    EXPECT_GT(orient(at(a), at(b), at(c)), 1000 * 1000);
+    twice_area += orient(at(a), at(b), at(c));
+  }
+  EXPECT_EQ(twice_area, 2 * 2000 * 2000 + 2000);
 }
 
 TEST(IsoSolid, FindsBadRings) {
