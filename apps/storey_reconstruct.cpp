@@ -5,7 +5,6 @@
 
 #include "cli/command_line.h"
 #include "io/failure.h"
-#include "io/model_io.h"
 #include "io/output_file.h"
 #include "reconstruct/intermediate.h"
 #include "reconstruct/options.h"
@@ -34,13 +33,15 @@ int run(int argc, char** argv) {
     };
   }
   const Result result = reconstruct(options, observers);
-  const PolyhedralModel& model = result.model.model;
-  io::writeModelPly(file("model.ply"), model, result.local_to_input);
-  io::writeModelObj(file("model.obj"), model, result.local_to_input);
-  io::writeFloorplansGeoJson(file("floorplans.geojson"), model, result.local_to_input,
-                             options.attitude.crs);
+  const exports::Exported exported{result.model.model, result.local_to_input, options.attitude.crs,
+                                   describe(options, result)};
+  for (const exports::Format& format : options.formats) {
+    format.write(file(format.file), exported);
+  }
   if (options.intermediate) writeIntermediate(*directory, options, result);
-  writeReport(file("report.json"), options, result);  // last: all the others are there
+  io::OutputFile report(file("report.json"));  // last: all the others are there
+  report.write(exported.report);
+  report.commit();
   if (!result.model.check.ok()) {
     throw io::Failure(io::Internal, options.input, "the model failed its checks",
                       "see report.json, and report it with the cloud");

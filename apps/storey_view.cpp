@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "cli/command_line.h"
+#include "export/report_page.h"
 #include "io/failure.h"
 #include "view/options.h"
 #include "view/render.h"
@@ -41,7 +42,7 @@ std::string firstMissing(const Reconstruction& reconstruction, Stage stage) {
 
 void writeAll(const Reconstruction& reconstruction, const PictureSize& size) {
   const PictureWriter writer(size);
-  bool any = false;
+  std::vector<std::string> written;
   for (const Picture& picture : kPictures) {
     const std::string missing = firstMissing(reconstruction, picture.stage);
     if (!missing.empty()) {
@@ -50,11 +51,14 @@ void writeAll(const Reconstruction& reconstruction, const PictureSize& size) {
     }
     const Drawing drawing = makeDrawing(reconstruction, picture.stage, picture.view, std::nullopt);
     writer.write(reconstruction.file(picture.file), drawing);
-    any = true;
+    written.push_back(reconstruction.file(picture.file));
   }
-  if (!any) {
+  if (written.empty()) {
     throw io::Failure(io::MissingInput, reconstruction.file(""), "has nothing to draw",
                       "run storey_reconstruct again");
+  }
+  if (reconstruction.has("report.html")) {
+    exports::addPictures(reconstruction.file("report.html"), written);
   }
 }
 

@@ -29,26 +29,6 @@ Json ringCoordinates(const FloorplanRing& ring, const Eigen::Isometry3d& transfo
   return coordinates;
 }
 
-/// The wall face of the model that lies on an edge of a floorplan, at the middle of both; null if
-/// there is none.
-const PolyhedralFace* faceAt(const PolyhedralModel& model, int wall,
-                             const Eigen::Vector3d& middle) {
-  const PolyhedralFace* found = nullptr;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const PolyhedralFace& face : model.faces) {
-    if (face.label != FaceLabel::Wall || face.wall != wall || wall < 0) continue;
-    Eigen::AlignedBox3d box;
-    for (const int v : face.outer) box.extend(model.vertices[static_cast<std::size_t>(v)]);
-    const double size = box.diagonal().norm();
-    box.min().array() -= 2.0 * model.grid;  // vertices move by a grid unit
-    box.max().array() += 2.0 * model.grid;
-    if (!box.contains(middle) || size >= smallest) continue;
-    smallest = size;
-    found = &face;
-  }
-  return found;
-}
-
 /// What is known of the edges of a component, each as one array for each ring.
 struct EdgeArrays {
   Json walls = Json::array();
@@ -61,9 +41,7 @@ struct EdgeArrays {
     Json of_ring[4] = {Json::array(), Json::array(), Json::array(), Json::array()};
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const FloorplanEdge& edge = ring.edges[i];
-      Eigen::Vector3d middle(0.0, 0.0, 0.5 * (layer.z_min + layer.z_max));
-      middle.head<2>() = 0.5 * (ring.vertices[i] + ring.vertices[(i + 1) % ring.size()]);
-      const PolyhedralFace* face = faceAt(model, edge.wall, middle);
+      const PolyhedralFace* face = wallFaceAt(model, layer, ring, i);
       of_ring[0].push_back(edge.wall);
       of_ring[1].push_back(edge.hypothetical || (face != nullptr && face->hypothetical));
       of_ring[2].push_back(face != nullptr ? Json(face->coverage) : Json(nullptr));
@@ -110,6 +88,31 @@ Json feature(const PolyhedralModel& model, const FloorplanLayer& layer,
 
 }  // namespace
 
+const PolyhedralFace* wallFaceAt(const PolyhedralModel& model, const FloorplanLayer& layer,
+                                 const FloorplanRing& ring, std::size_t edge) {
+  const int wall = ring.edges[edge].wall;
+  Eigen::Vector3d middle(0.0, 0.0, 0.5 * (layer.z_min + layer.z_max));
+  middle.head<2>() = 0.5 * (ring.vertices[edge] + ring.vertices[(edge + 1) % ring.size()]);
+  const PolyhedralFace* found = nullptr;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const PolyhedralFace& face : model.faces) {
+    if (face.label != FaceLabel::Wall || face.wall != wall || wall < 0) continue;
+    Eigen::AlignedBox3d box;
+    for (const int v : face.outer) box.extend(model.vertices[static_cast<std::size_t>(v)]);
+    const double size = box.diagonal().norm();
+    box.min().array() -= 2.0 * model.grid;  // vertices move by a grid unit
+    box.max().array() += 2.0 * model.grid;
+    if (!box.contains(middle) || size >= smallest) continue;
+    smallest = size;
+    found = &face;
+  }
+  return found;
+}
+
+Eigen::Isometry3d planFrame(const Eigen::Isometry3d& local_to_input) {
+  return keepsVertical(local_to_input) ? local_to_input : Eigen::Isometry3d::Identity();
+}
+
 void writeFloorplansGeoJson(const std::string& path, const PolyhedralModel& model,
                             const Eigen::Isometry3d& local_to_input, const std::string& crs) {
   const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
@@ -120,7 +123,7 @@ void writeFloorplansGeoJson(const std::string& path, const PolyhedralModel& mode
   collection["frame_to_input"] = matrixRows(upright ? identity : local_to_input);
   collection["features"] = Json::array();
   for (const FloorplanLayer& layer : model.storeys) {
-    collection["features"].push_back(feature(model, layer, upright ? local_to_input : identity));
+    collection["features"].push_back(feature(model, layer, planFrame(local_to_input)));
   }
   OutputFile file(path);
   file.write(collection.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -31,15 +31,24 @@ void writePolygonsPly(const std::string& path, const PolygonSoup& soup,
 
 /// Writes polygons as OBJ: an object `shell_k` for each shell, in it a group for each label (wall,
 /// roof, ground, ceiling, with the second group name `hypothetical` for walls not seen).
+/// \param materials name of a library that has a material named like each label, and one with
+///        `_hypothetical` after it; empty: none
 /// \throws Failure (CannotCreate, IoError)
 void writePolygonsObj(const std::string& path, const PolygonSoup& soup,
-                      const Eigen::Isometry3d& local_to_input);
+                      const Eigen::Isometry3d& local_to_input, const std::string& materials = {});
 
 void writeModelPly(const std::string& path, const PolyhedralModel& model,
                    const Eigen::Isometry3d& local_to_input,
                    PlyEncoding encoding = PlyEncoding::Ascii);
-void writeModelObj(const std::string& path, const PolyhedralModel& model,
-                   const Eigen::Isometry3d& local_to_input);
+
+/// The frame that floorplans are written in: the input's if `local_to_input` keeps the vertical,
+/// else the upright one (the identity).
+Eigen::Isometry3d planFrame(const Eigen::Isometry3d& local_to_input);
+
+/// The wall face of the model that lies on an edge of a floorplan, at the middle of both; null if
+/// there is none.
+const PolyhedralFace* wallFaceAt(const PolyhedralModel& model, const FloorplanLayer& layer,
+                                 const FloorplanRing& ring, std::size_t edge);
 
 /// Writes the floorplans of a model as GeoJSON: a Feature for each storey, its geometry a
 /// MultiPolygon with outer rings counter-clockwise and holes clockwise; properties z_min, z_max,

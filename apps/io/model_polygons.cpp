@@ -49,9 +49,4 @@ void writeModelPly(const std::string& path, const PolyhedralModel& model,
   writePolygonsPly(path, toPolygons(model), local_to_input, encoding);
 }
 
-void writeModelObj(const std::string& path, const PolyhedralModel& model,
-                   const Eigen::Isometry3d& local_to_input) {
-  writePolygonsObj(path, toPolygons(model), local_to_input);
-}
-
 }  // namespace storey::io

@@ -96,7 +96,7 @@ void putFace(PlyValues& values, const PolygonSoup::Polygon& polygon, bool wide, 
   values.endRow();
 }
 
-void writeObjFaces(OutputFile& file, const PolygonSoup& soup) {
+void writeObjFaces(OutputFile& file, const PolygonSoup& soup, bool materials) {
   const auto key = [&soup](std::size_t i) {
     const auto& polygon = soup.polygons[i];
     return std::make_tuple(polygon.shell, polygon.label, polygon.hypothetical);
@@ -112,8 +112,11 @@ void writeObjFaces(OutputFile& file, const PolygonSoup& soup) {
       file.write("o shell_" + std::to_string(polygon.shell) + "\n");
     }
     if (first || key(order[k]) != key(order[k - 1])) {
-      file.write(std::string("g ") + labelName(polygon.label) +
-                 (polygon.hypothetical ? " hypothetical\n" : "\n"));
+      const std::string label = labelName(polygon.label);
+      file.write("g " + label + (polygon.hypothetical ? " hypothetical\n" : "\n"));
+      if (materials) {
+        file.write("usemtl " + label + (polygon.hypothetical ? "_hypothetical\n" : "\n"));
+      }
     }
     file.write("f");
     for (const int corner : polygon.corners) {
@@ -146,14 +149,15 @@ void writePolygonsPly(const std::string& path, const PolygonSoup& soup,
 }
 
 void writePolygonsObj(const std::string& path, const PolygonSoup& soup,
-                      const Eigen::Isometry3d& local_to_input) {
+                      const Eigen::Isometry3d& local_to_input, const std::string& materials) {
   OutputFile file(path);
   file.write("# made by storey, in the coordinates of the input cloud\n");
+  if (!materials.empty()) file.write("mtllib " + materials + "\n");
   for (const Eigen::Vector3d& vertex : soup.vertices) {
     file.write("v ");
     writeTriple(file, local_to_input * vertex);
   }
-  writeObjFaces(file, soup);
+  writeObjFaces(file, soup, !materials.empty());
   file.commit();
 }
 

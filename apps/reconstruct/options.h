@@ -2,6 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "export/formats.h"
 
 #include "stages/options.h"
 
@@ -14,6 +17,7 @@ using stages::SpaceSide;
 struct Options {
   std::string input;
   std::string output_directory;
+  std::vector<exports::Format> formats;
   stages::AttitudeOptions attitude;
   double kept_share = stages::kDefaultKeptShare;
   Method method = Method::Building;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "io/output_file.h"
+#include "reconstruct/residuals.h"
 
 namespace storey::reconstruct {
 namespace {
@@ -235,6 +235,14 @@ Json describeModel(const Result& r) {
           {"problems", check.problems}};
 }
 
+Json describeResiduals(const Result& r) {
+  const ResidualHistogram histogram = measureResiduals(r);
+  return {{"points", histogram.points},
+          {"bin", histogram.bin},
+          {"counts", histogram.counts},
+          {"beyond", histogram.beyond}};
+}
+
 double peakMegabytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -243,7 +251,7 @@ double peakMegabytes() {
 
 }  // namespace
 
-void writeReport(const std::string& path, const Options& options, const Result& r) {
+std::string describe(const Options& options, const Result& r) {
   Json report;
   report["program"] = std::string("storey ") + STOREY_VERSION;
   report["input"] = describeInput(options, r);
@@ -271,6 +279,7 @@ void writeReport(const std::string& path, const Options& options, const Result& 
   report["layers"] = describeLayers(r);
   report["walls"] = describeWalls(r);
   report["levels"] = describeLevels(r);
+  report["residuals"] = describeResiduals(r);
   report["support"] = describeSupport(r.model.model);
   report["model"] = describeModel(r);
   Json& seconds = report["seconds"];
@@ -282,11 +291,8 @@ void writeReport(const std::string& path, const Options& options, const Result& 
   seconds["total"] = total;
   report["peak_megabytes"] = peakMegabytes();
 
-  io::OutputFile file(path);
   // File names need not be UTF-8, JSON must be: replace what is not.
-  file.write(report.dump(2, ' ', false, Json::error_handler_t::replace));
-  file.write("\n");
-  file.commit();
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace storey::reconstruct

@@ -7,8 +7,8 @@
 
 namespace storey::reconstruct {
 
-/// Writes `report.json`: per stage what was counted, found and derived, the checks of the model,
-/// seconds and peak memory. \throws io::Failure
-void writeReport(const std::string& path, const Options& options, const Result& result);
+/// What `report.json` holds: per stage what was counted, found and derived, the checks of the
+/// model, how far the points are from it, seconds and peak memory.
+std::string describe(const Options& options, const Result& result);
 
 }  // namespace storey::reconstruct

@@ -197,7 +197,7 @@ TEST(ModelIo, ModelsWithHolesBecomeClosedFilesWithoutHoles) {
     if (name == "m.ply") {
       io::writeModelPly(path, model, translation(1000, 2000, 0));
     } else {
-      io::writeModelObj(path, model, translation(1000, 2000, 0));
+      io::writePolygonsObj(path, io::toPolygons(model), translation(1000, 2000, 0));
     }
     const PolygonSoup soup = readPolygons(path);
     EXPECT_EQ(soup.vertices.size(), 16u);

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <fstream>
 
 #include "view_files.h"
 
@@ -125,12 +126,14 @@ TEST(ViewProgram, AllPicturesAreWrittenForWhichThereAreFiles) {
   if (!findDisplay(prefix)) GTEST_SKIP() << "no display and no xvfb-run";
   const BoxReconstruction box;
   box.writeStages();
+  std::ofstream(box.file("report.html")) << "<!--pictures--><!--/pictures-->";
   const Outcome outcome = runView(box.path() + " --pictures --size 400x400", prefix);
   EXPECT_EQ(outcome.status, 0) << outcome.message;
-  for (const char* const name :
-       {"04_slices.png", "05_normals.png", "08_refined.png", "09_slice.png", "09_floorplans.png",
-        "11_model.png", "11_model_top.png", "12_overlay.png"}) {
-    EXPECT_TRUE(std::filesystem::exists(box.file(name))) << name;
+  const std::string page = readAll(box.file("report.html"));
+  for (const char* const name : {"04_slices", "05_normals", "08_refined", "09_slice",
+                                 "09_floorplans", "11_model", "11_model_top", "12_overlay"}) {
+    EXPECT_TRUE(std::filesystem::exists(box.file(name + std::string(".png")))) << name;
+    EXPECT_NE(page.find(std::string("alt=\"") + name + "\""), std::string::npos) << name;
   }
   EXPECT_FALSE(std::filesystem::exists(box.file("02_confidence.png")));
   EXPECT_NE(outcome.message.find("02_confidence.png"), std::string::npos) << outcome.message;
