@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "export/formats.h"
 
+#include <filesystem>
+
 #include "export/city_json.h"
 #include "export/dxf.h"
 #include "export/gltf.h"
@@ -41,6 +43,14 @@ const std::vector<Format>& allFormats() {
 const Format* findFormat(const std::string& name) {
   for (const Format& format : allFormats()) {
     if (name == format.name) return &format;
+  }
+  return nullptr;
+}
+
+const Format* formatOfFile(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  for (const Format& format : allFormats()) {
+    if (std::filesystem::path(format.file).extension() == extension) return &format;
   }
   return nullptr;
 }

@@ -21,4 +21,7 @@ const std::vector<Format>& allFormats();
 /// The format of that name; null if there is none.
 const Format* findFormat(const std::string& name);
 
+/// The first format whose file has the extension of this one; null if there is none.
+const Format* formatOfFile(const std::string& path);
+
 }  // namespace storey::exports

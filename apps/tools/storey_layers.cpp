@@ -2,9 +2,8 @@
 // The last stage: floorplans and a cloud to a closed model.
 #include <cstdio>
 
-#include "io/cloud_writer.h"
+#include "export/formats.h"
 #include "io/failure.h"
-#include "io/model_io.h"
 #include "stages/floorplan_file.h"
 #include "stages/options.h"
 #include "stages/stage_cloud_io.h"
@@ -31,9 +30,10 @@ bool parse(int argc, char** argv, Request& r) {
   line.argument("cloud", r.cloud,
                 "with all points: of storey_vertical or storey_planar_confidence");
   line.argument("floorplans", r.floorplans, "of storey_floorplans (.geojson)");
-  line.arguments("model", r.outputs,
-                 "one or more files, in the coordinates of the first cloud (.ply, .obj; .geojson:\n"
-                 "                the fitted floorplans)");
+  line.arguments(
+      "model", r.outputs,
+      "one or more files, in the coordinates of the first cloud (.ply, .obj, .json =\n"
+      "                CityJSON, .glb, .stl, .vtk; the fitted floorplans: .geojson, .svg, .dxf)");
   stages::SimplicityOptions simplicity;
   stages::declareMaxTypes(line, simplicity);
   stages::declareModel(line, r.model);
@@ -41,7 +41,12 @@ bool parse(int argc, char** argv, Request& r) {
   if (!line.parse(argc, argv)) return false;
   if (r.outputs.empty()) line.fail("a cloud, floorplans and a model are needed");
   for (const std::string& output : r.outputs) {
-    requireExtension(line, output, {".ply", ".obj", ".geojson"});
+    const exports::Format* format = exports::formatOfFile(output);
+    if (format == nullptr || format == exports::findFormat("html")) {
+      line.fail("'" + output +
+                "' has none of the extensions .ply .obj .json .glb .stl .vtk .geojson "
+                ".svg .dxf");
+    }
   }
   r.max_types = simplicity.max_types;
   return true;
@@ -59,17 +64,6 @@ void completeState(const stages::StageFloorplans& floorplans, stages::StageCloud
   cloud.state.density = other.density;
 }
 
-void write(const std::string& path, const PolyhedralModel& model, const Eigen::Isometry3d& to_input,
-           const std::string& crs) {
-  if (io::hasExtension(path, ".geojson")) {
-    io::writeFloorplansGeoJson(path, model, to_input, crs);
-  } else if (io::hasExtension(path, ".obj")) {
-    io::writeModelObj(path, model, to_input);
-  } else {
-    io::writeModelPly(path, model, to_input);
-  }
-}
-
 int run(int argc, char** argv) {
   Request r;
   if (!parse(argc, argv, r)) return io::Ok;
@@ -79,8 +73,9 @@ int run(int argc, char** argv) {
   LayerwiseModel model;
   const std::string found =
       buildModel(cloud, floorplans.layers, floorplans.method, r.max_types, r.model, model);
+  const exports::Exported exported{model.model, modelToInput(cloud, model), cloud.state.crs};
   for (const std::string& output : r.outputs) {
-    write(output, model.model, modelToInput(cloud, model), cloud.state.crs);
+    exports::formatOfFile(output)->write(output, exported);
   }
   if (!r.quiet) std::fprintf(stderr, "%s\n", found.c_str());
   if (!model.check.ok()) {
