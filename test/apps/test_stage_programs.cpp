@@ -72,6 +72,9 @@ TEST_P(Chains, GiveTheModelsOfStoreyReconstructByteForByte) {
   const TemporaryDirectory directory;
   const auto& [sample, extension] = GetParam();
   writeSample(directory, sample);
+  for (const char* const folder : {"building_files", "paper_files"}) {
+    std::filesystem::create_directory(directory.file(folder));  // an OBJ names its materials' file
+  }
   const auto cloud = [&, e = extension](const std::string& stage) { return stage + "." + e; };
   const auto through = [&](const std::string& program, const std::string& in,
                            const std::string& out) {
@@ -82,7 +85,8 @@ TEST_P(Chains, GiveTheModelsOfStoreyReconstructByteForByte) {
   through("storey_planar_confidence", "01_upright", "02_confidence");
   runWell(directory, "storey_floorplans -q " + cloud("02_confidence") + " building.geojson");
   runWell(directory, "storey_layers -q " + cloud("02_confidence") +
-                         " building.geojson building.ply building.obj building_fitted.geojson");
+                         " building.geojson building.ply building_files/model.obj "
+                         "building_fitted.geojson");
   through("storey_dominant_directions", "02_confidence", "03_directions");
   through("storey_slices", "03_directions", "04_slices");
   through("storey_normals", "04_slices", "05_normals");
@@ -92,7 +96,8 @@ TEST_P(Chains, GiveTheModelsOfStoreyReconstructByteForByte) {
   runWell(directory,
           "storey_floorplans -q --method paper " + cloud("08_refined") + " paper.geojson");
   runWell(directory, "storey_layers -q " + cloud("01_upright") +
-                         " paper.geojson paper.ply paper.obj paper_fitted.geojson");
+                         " paper.geojson paper.ply paper_files/model.obj "
+                         "paper_fitted.geojson");
   for (const std::string method : {"building", "paper"}) {
     runWell(directory,
             "storey_reconstruct cloud.ply -q --threads 1 --intermediate --crs "
@@ -104,7 +109,8 @@ TEST_P(Chains, GiveTheModelsOfStoreyReconstructByteForByte) {
       EXPECT_TRUE(bytes == readAll(directory.file(method + "/" + theirs))) << ours;
     };
     same(method + ".ply", "model.ply");
-    same(method + ".obj", "model.obj");
+    same(method + "_files/model.obj", "model.obj");
+    same(method + "_files/model.mtl", "model.mtl");
     same(method + "_fitted.geojson", "floorplans.geojson");
     same(method + ".geojson", "09_floorplans.geojson");
     if (extension != "pcd") continue;
