@@ -1,30 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stages/options.h"
 
-#include <algorithm>
-#include <cstdint>
-
-#include "io/scan.h"
+#include "stages/crs.h"
 
 namespace storey::stages {
-namespace {
-
-/// Any one line of text; what looks like a code of EPSG's must be one.
-void checkCrs(const cli::CommandLine& line, const std::string& crs) {
-  constexpr std::size_t kMaxLength = 10000;  // of WKT, in the header of a file
-  const bool printable =
-      std::all_of(crs.begin(), crs.end(), [](unsigned char c) { return c >= 0x20 && c != 0x7f; });
-  if (!printable || crs.size() > kMaxLength) line.fail("--crs is not one line of text");
-  const std::string authority = "EPSG:";
-  const bool named = crs.rfind(authority, 0) == 0;
-  std::uint64_t code = 0;
-  const bool number = io::parseUnsigned(named ? crs.substr(authority.size()) : crs, code);
-  if (named ? !number || code == 0 : number) {
-    line.fail("--crs is '" + crs + "', expected EPSG: and a number above 0, or a name");
-  }
-}
-
-}  // namespace
 
 void declareAttitude(cli::CommandLine& line, AttitudeOptions& o) {
   line.vector("up", o.up,
@@ -45,7 +24,9 @@ void declareAttitude(cli::CommandLine& line, AttitudeOptions& o) {
 void checkAttitude(const cli::CommandLine& line, AttitudeOptions& o) {
   if (line.given("up") && o.up.isZero()) line.fail("--up is zero, expected a direction");
   o.up.normalize();  // zero, where it is not given, stays zero
-  checkCrs(line, o.crs);
+  if (!isCrs(o.crs)) {
+    line.fail("--crs is '" + o.crs + "', expected EPSG: and a number above 0, or a name");
+  }
 }
 
 void declareKeptShare(cli::CommandLine& line, double& kept_share) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/scan.h"
+#include "stages/crs.h"
 
 namespace storey::stages {
 namespace {
@@ -38,7 +39,10 @@ class StateReader {
     const std::size_t end = std::min(note.find(' '), note.size());
     key_ = note.substr(0, end);
     const std::string rest = note.substr(std::min(end + 1, note.size()));
-    if (key_ == "crs") state_.crs = rest;
+    if (key_ == "crs") {
+      if (!isCrs(rest)) fail();
+      state_.crs = rest;
+    }
     if (key_ == "space") state_.inside = rest == "inside";
     if (key_ == "noise") state_.noise = nonNegative(rest);
     if (key_ == "density") state_.density = nonNegative(rest);

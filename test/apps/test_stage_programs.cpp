@@ -272,6 +272,7 @@ TEST_F(StagePrograms, CommentsThatMakeNoSenseAreRefused) {
            {"noise", "1 2"},
            {"noise", ""},
            {"density", "inf"},
+           {"crs", "EPSG:x"},
            {"planar_threshold", "much"},
            {"frame_to_input", "1 0 0 0"},
            {"frame_to_input", "2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"},
