@@ -61,6 +61,7 @@ Json describeFace(const PolyhedralFace& face, const LocalMesh& mesh,
   Json rings = Json::array({face.outer});
   for (const std::vector<int>& hole : face.inner) rings.push_back(hole);
   return {{"label", static_cast<int>(face.label)},
+          {"material", materialOf(face)},
           {"wall", face.wall},
           {"hypothetical", face.hypothetical},
           {"support", face.support},

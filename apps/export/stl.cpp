@@ -14,7 +14,7 @@ namespace storey::exports {
 void writeStl(const std::string& path, const Exported& exported) {
   const LocalMesh mesh = toLocalMesh(exported);
   io::OutputFile file(path);
-  std::string header = "storey, add";
+  std::string header = "storey";  // short: three doubles may have 24 characters each
   for (const double coordinate : mesh.origin) header += " " + numberText(coordinate);
   header.resize(80, ' ');
   file.write(header);

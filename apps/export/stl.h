@@ -7,8 +7,8 @@
 
 namespace storey::exports {
 
-/// Writes binary STL. Its floats are about a local origin, which the header of 80 bytes tells:
-/// "storey, add X Y Z".
+/// Writes binary STL. Its floats are about a local origin; "storey X Y Z" in the header is what to
+/// add to get the input's coordinates.
 /// \throws io::Failure (CannotCreate, IoError)
 void writeStl(const std::string& path, const Exported& exported);
 

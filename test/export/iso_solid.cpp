@@ -5,6 +5,7 @@
 #include <storey/surface/triangulation.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -76,19 +77,26 @@ class SolidChecker {
     return area;
   }
 
+  // Greatest distance of a point to the plane that fits them best: that of the area tells nothing
+  // of slivers.
+  double distanceToPlane(const Polygon& polygon) const {
+    std::vector<Eigen::Vector3d> points;
+    for (const std::vector<int>& ring : polygon) {
+      for (const int i : ring) points.push_back(at(i));
+    }
+    Eigen::MatrixX3d rows(static_cast<Eigen::Index>(points.size()), 3);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      rows.row(static_cast<Eigen::Index>(i)) = points[i];
+    }
+    rows.rowwise() -= rows.colwise().mean().eval();
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeThinV);
+    return (rows * svd.matrixV().col(2)).cwiseAbs().maxCoeff();
+  }
+
   // The triangles of a polygon, by way of its shadow along the axis that it faces most.
   std::vector<Triangle> checkPolygon(const Polygon& polygon) {
+    if (distanceToPlane(polygon) > planarity_) errors_.insert(IsoError::NotPlanar);
     const Eigen::Vector3d normal = normalOf(polygon[0]);
-    double low = 0.0;
-    double high = 0.0;
-    for (const std::vector<int>& ring : polygon) {
-      for (const int i : ring) {
-        const double height = normal.normalized().dot(at(i) - at(polygon[0][0]));
-        low = std::min(low, height);
-        high = std::max(high, height);
-      }
-    }
-    if (high - low > 2.0 * planarity_) errors_.insert(IsoError::NotPlanar);
     Eigen::Index axis = 0;
     normal.cwiseAbs().maxCoeff(&axis);
     const std::vector<detail::GridPoint> points = shadowOf(axis, normal[axis] < 0.0);

@@ -22,7 +22,7 @@ enum class IsoError {
   TooFewPoints = 101,       ///< a ring of less than three points
   RepeatedPoint = 102,      ///< consecutive, or the same point twice in a ring
   NotAPolygon = 200,        ///< 104, 201, 202, 206 to 208: rings cross, touch along an edge, ...
-  NotPlanar = 203,          ///< a point further from the plane of its polygon than `planarity`
+  NotPlanar = 203,          ///< a point further from the best plane of its polygon than `planarity`
   TooFewPolygons = 301,     ///< a shell of less than four
   NotClosed = 302,          ///< an edge without a polygon on the other side
   NonManifold = 303,        ///< an edge of several polygons, or a vertex with several fans

@@ -226,9 +226,8 @@ TEST(Stl, VtkReadsAClosedSurfaceAboutTheOriginInTheHeader) {
     expectModel(soup, model, kFloat * extentOf(model));
     const std::string header = readAll(directory.file("a.stl")).substr(0, 80);
     Eigen::Vector3d origin;
-    ASSERT_EQ(
-        std::sscanf(header.c_str(), "storey, add %lf %lf %lf", &origin[0], &origin[1], &origin[2]),
-        3);
+    ASSERT_EQ(std::sscanf(header.c_str(), "storey %lf %lf %lf", &origin[0], &origin[1], &origin[2]),
+              3);
     Eigen::AlignedBox3d expected;
     for (const Eigen::Vector3d& v : model.vertices) {
       expected.extend(frame.linear() * v + (frame.translation() - origin));

@@ -14,7 +14,7 @@
 
   const largestResidual = Math.max(1e-300, ...model.faces.map(face => face.residual));
   const colouring = {
-    kind: face => new THREE.Color(...model.colours[face.label + (face.hypothetical ? 4 : 0)]),
+    kind: face => new THREE.Color(...model.colours[face.material]),
     coverage: face => ramp(face.coverage),
     residual: face => face.support > 0 ? ramp(1 - face.residual / largestResidual)
                                        : new THREE.Color(0.7, 0.7, 0.7),
