@@ -17,9 +17,9 @@ rm "$root/etc/apt/sources.list"
 cp -r /etc/apt/. "$root/etc/apt/"
 mount -t proc proc "$root/proc"  # the installation of Java, which VTK's development files need, reads it
 cp /etc/resolv.conf "$root/etc/"
-mkdir "$root/packages" "$root/consumer"
+mkdir "$root/packages"
 cp "$packages"/*.deb "$root/packages/"
-cp "$source"/test/consumer/*.{txt,cpp,h} "$root/consumer/"
+cp -r "$source/apps/examples" "$root/examples"
 
 chroot "$root" /bin/bash -euc '
   export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8
@@ -32,11 +32,12 @@ chroot "$root" /bin/bash -euc '
   storey_evaluate /tmp/model/model.ply /tmp/truth.ply
   echo "== the development files"
   install /packages/libstorey-dev_*.deb g++ cmake make pkg-config
-  cmake -S /consumer -B /tmp/build >/dev/null
+  cmake -S /examples -B /tmp/build >/dev/null
   cmake --build /tmp/build >/dev/null
-  /tmp/build/readme_example
-  g++ /consumer/readme_example.cpp -o /tmp/example $(pkg-config --cflags --libs storey_surface)
-  /tmp/example
+  /tmp/build/five_classes /tmp/cloud.ply /tmp/model.vtk
+  g++ /examples/floorplans.cpp -o /tmp/floorplans \
+    $(pkg-config --cflags --libs storey_surface pcl_io) -lboost_filesystem  # which pcl_io.pc forgets
+  /tmp/floorplans /tmp/cloud.ply
   echo "== removed without a trace"
   apt-get purge -y -qq storey-tools libstorey-dev "libstorey[0-9].*" >/dev/null
   ! find / -xdev -name "*storey*" -not -path "/packages/*" -not -path "/tmp/*" -not -path "/proc/*" \
