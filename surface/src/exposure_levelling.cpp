@@ -106,8 +106,6 @@ std::vector<Eigen::Array3f> levelExposures(
       gains[k][c] = static_cast<float>(std::exp(logs[static_cast<Eigen::Index>(k)]));
     }
   }
-  if (getenv("DBG"))
-    for (auto& g : gains) fprintf(stderr, "%.3f %.3f %.3f\n", g[0], g[1], g[2]);
   return gains;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/console/print.h>
 #include <storey/surface/detail/exposure_levelling.h>
+#include <storey/surface/detail/seam_levelling.h>
 #include <storey/surface/detail/texture_composition.h>
 #include <storey/surface/detail/texture_fill.h>
 #include <storey/surface/detail/texture_views.h>
@@ -105,8 +106,10 @@ std::vector<FacadeTexture> textureFacades(const std::vector<Facade>& facades,
   for (std::size_t f = 0; f < facades.size(); ++f) {
     detail::findHidden(grids[f], gains, views[f]);
     const std::vector<int> selected = detail::selectViews(grids[f], views[f]);
+    const std::vector<Eigen::Array3f> corrections =
+        detail::levelSeams(grids[f], gains, views[f], selected);
     textures.push_back(
-        detail::composeTexture(grids[f], sight, prepared, gains, views[f], selected));
+        detail::composeTexture(grids[f], sight, prepared, gains, views[f], selected, corrections));
     if (options.fill) detail::fillUnseen(textures.back());
   }
   return textures;

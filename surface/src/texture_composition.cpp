@@ -8,22 +8,26 @@
 namespace storey::detail {
 namespace {
 
+/// What a photo contributes to a texel.
 struct Share {
   int photo;
   float weight;
+  Eigen::Array3f correction;  // weighted
 };
 
 class Composer {
  public:
   Composer(const TextureGrid& grid, const FacadeSight& facades,
            const std::vector<TexturePhoto>& photos, const std::vector<Eigen::Array3f>& gains,
-           const std::vector<std::vector<BlockView>>& views, const std::vector<int>& selected)
+           const std::vector<std::vector<BlockView>>& views, const std::vector<int>& selected,
+           const std::vector<Eigen::Array3f>& corrections)
       : grid_(grid),
         facades_(facades),
         photos_(photos),
         gains_(gains),
         views_(views),
-        selected_(selected) {}
+        selected_(selected),
+        corrections_(corrections) {}
 
   /// Colour of the texel in column x and row y, and the photo that most of it is from; -1: none.
   int compose(int x, int y, Eigen::Array3f& color) const {
@@ -33,18 +37,22 @@ class Composer {
     const int num_shares = sharesAt(x, y, shares);
     color.setZero();
     float sum = 0.0f;
-    Share most = {-1, 0.0f};
+    int photo = -1;
+    float most = 0.0f;
     for (int i = 0; i < num_shares; ++i) {
       const Share& share = shares[static_cast<std::size_t>(i)];
       Eigen::Array3f sample;
       if (!isGood(own, share.photo) || !look(share.photo, own, point, sample)) continue;
-      color += share.weight * sample;
+      color += share.correction * sample;
       sum += share.weight;
-      if (share.weight > most.weight) most = share;
+      if (share.weight > most) {
+        most = share.weight;
+        photo = share.photo;
+      }
     }
     if (sum > 0.0f) {
       color /= sum;
-      return most.photo;
+      return photo;
     }
     return lookAnywhere(own, point, color);
   }
@@ -68,8 +76,10 @@ class Composer {
       const float weight = (i % 2 == 0 ? 1.0f - u : u) * (i / 2 == 0 ? 1.0f - v : v);
       int at = 0;
       while (at < count && shares[static_cast<std::size_t>(at)].photo != photo) ++at;
-      if (at == count) shares[static_cast<std::size_t>(count++)] = {photo, 0.0f};
+      if (at == count)
+        shares[static_cast<std::size_t>(count++)] = {photo, 0.0f, Eigen::Array3f::Zero()};
       shares[static_cast<std::size_t>(at)].weight += weight;
+      shares[static_cast<std::size_t>(at)].correction += weight * corrections_[block];
     }
     return count;
   }
@@ -114,6 +124,7 @@ class Composer {
   const std::vector<Eigen::Array3f>& gains_;
   const std::vector<std::vector<BlockView>>& views_;
   const std::vector<int>& selected_;
+  const std::vector<Eigen::Array3f>& corrections_;
 };
 
 }  // namespace
@@ -122,7 +133,8 @@ FacadeTexture composeTexture(const TextureGrid& grid, const FacadeSight& facades
                              const std::vector<TexturePhoto>& photos,
                              const std::vector<Eigen::Array3f>& gains,
                              const std::vector<std::vector<BlockView>>& views,
-                             const std::vector<int>& selected) {
+                             const std::vector<int>& selected,
+                             const std::vector<Eigen::Array3f>& corrections) {
   FacadeTexture texture;
   texture.frame = grid.frame;
   texture.texel = grid.texel;
@@ -130,7 +142,7 @@ FacadeTexture composeTexture(const TextureGrid& grid, const FacadeSight& facades
   const std::size_t num_texels = texture.image.channels.size() / 3;
   texture.states.assign(num_texels, TexelState::Outside);
   texture.photos.assign(num_texels, -1);
-  const Composer composer(grid, facades, photos, gains, views, selected);
+  const Composer composer(grid, facades, photos, gains, views, selected, corrections);
 #pragma omp parallel for schedule(dynamic, 8)
   for (int y = 0; y < grid.height; ++y) {
     for (int x = 0; x < grid.width; ++x) {
