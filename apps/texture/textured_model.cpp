@@ -69,13 +69,6 @@ void writeVector(io::OutputFile& file, const char* keyword, const Eigen::VectorX
   file.write("\n");
 }
 
-/// Where a corner is in the image of its facade: from the lower left, both within [0, 1].
-Eigen::Vector2d textureCoordinates(const FacadeTexture& texture, const Eigen::Vector3d& corner) {
-  const Eigen::Vector2d place = texture.frame.local(corner);
-  return {place.x() / (texture.image.width * texture.texel),
-          1.0 - (texture.frame.height - place.y()) / (texture.image.height * texture.texel)};
-}
-
 void writeObj(const std::string& path, const io::PolygonSoup& soup, const ModelFacades& model,
               const std::vector<FacadeTexture>& textures) {
   io::OutputFile file(path);
@@ -87,7 +80,7 @@ void writeObj(const std::string& path, const io::PolygonSoup& soup, const ModelF
     std::string face = "f";
     for (const int corner : soup.polygons[i].corners) {
       const Eigen::Vector3d& vertex = soup.vertices[static_cast<std::size_t>(corner)];
-      writeVector(file, "vt", textureCoordinates(textures[facade], vertex));
+      writeVector(file, "vt", textures[facade].coordinates(vertex));
       face += " " + std::to_string(corner + 1) + "/" + std::to_string(++num_coordinates);
     }
     file.write("usemtl " + materialOf(facade) + "\n" + face + "\n");

@@ -81,6 +81,12 @@ double FacadeTexture::seenShare() const {
   return seen == 0 ? 0.0 : static_cast<double>(seen) / static_cast<double>(seen + unseen);
 }
 
+Eigen::Vector2d FacadeTexture::coordinates(const Eigen::Vector3d& point) const {
+  const Eigen::Vector2d place = frame.local(point);
+  return {place.x() / (image.width * texel),
+          1.0 - (frame.height - place.y()) / (image.height * texel)};
+}
+
 std::vector<FacadeTexture> textureFacades(const std::vector<Facade>& facades,
                                           const std::vector<FacadePhoto>& photos,
                                           const FacadeTexturingOptions& options) {

@@ -34,6 +34,10 @@ struct FacadeTexture {
   std::vector<int> photos;         ///< that most of each texel's colour is from; -1: none
 
   double seenShare() const;  ///< of the texels on the facade
+
+  /// Texture coordinates of a point of the facade: (0, 0) is the lower left corner of the image,
+  /// (1, 1) the upper right one.
+  Eigen::Vector2d coordinates(const Eigen::Vector3d& point) const;
 };
 
 struct FacadeTexturingOptions {
