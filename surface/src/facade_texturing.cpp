@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/console/print.h>
 #include <storey/surface/detail/exposure_levelling.h>
+#include <storey/surface/detail/hidden_views.h>
 #include <storey/surface/detail/seam_levelling.h>
 #include <storey/surface/detail/texture_composition.h>
 #include <storey/surface/detail/texture_fill.h>

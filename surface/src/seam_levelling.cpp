@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/surface/detail/hidden_views.h>
 #include <storey/surface/detail/seam_levelling.h>
-#include <storey/surface/detail/view_selection.h>
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/surface/detail/hidden_views.h>
 #include <storey/surface/detail/texture_composition.h>
-#include <storey/surface/detail/view_selection.h>
 
 #include <algorithm>
 #include <cmath>
