@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Puts photos on a model.
-#include <boost/program_options.hpp>
-#include <cmath>
 #include <cstdio>
-#include <iostream>
 #include <string>
 #include <vector>
 
+#include "cli/command_line.h"
 #include "io/cameras/camera_set.h"
 #include "io/failure.h"
 #include "io/images/image_files.h"
@@ -16,8 +14,8 @@
 
 namespace {
 
+namespace cli = storey::cli;
 namespace io = storey::io;
-namespace options = boost::program_options;
 namespace texture = storey::texture;
 
 struct Request {
@@ -28,46 +26,24 @@ struct Request {
   storey::FacadeTexturingOptions texturing;
 };
 
-[[noreturn]] void failUsage(const std::string& reason) {
-  throw io::Failure(io::Usage, "", reason, "see storey_texture --help");
-}
-
 bool parse(int argc, char** argv, Request& r) {
-  options::options_description visible(
-      "storey_texture MODEL CAMERAS IMAGES -o DIR [options]\n"
-      "An image of each facade of a closed model (.ply, .obj) from the photos that see it: "
-      "model.obj,\nmodel.mtl, facades.json (scales), textures/. Cameras in the model's "
-      "coordinates, of COLMAP,\nBundler or PMVS. Lengths are in the model's unit");
-  visible.add_options()("output,o", options::value(&r.output), "folder to write into")(
-      "texel", options::value(&r.texturing.texel)->default_value(0.0),
-      "side of a texel; 0: what the photos resolve")(
-      "max-texels", options::value(&r.texturing.max_texels)->default_value(64e6, "64e6"),
-      "most texels of all facades together")(
-      "fill", options::bool_switch(&r.texturing.fill),
-      "fill what no photo saw from the facade's own repetition")("help,h", "this text");
-  options::options_description all;
-  all.add(visible).add_options()("model", options::value(&r.model))(
-      "cameras", options::value(&r.cameras))("images", options::value(&r.images));
-  options::positional_options_description positional;
-  positional.add("model", 1).add("cameras", 1).add("images", 1);
-  options::variables_map given;
-  try {
-    options::store(
-        options::command_line_parser(argc, argv).options(all).positional(positional).run(), given);
-    options::notify(given);
-  } catch (const options::error& error) {
-    failUsage(error.what());
-  }
-  if (given.count("help") > 0) {
-    std::cout << visible;
-    return false;
-  }
+  cli::CommandLine line("storey_texture", {"MODEL CAMERAS IMAGES -o DIR [options]"},
+                        "An image of each facade of a closed model (.ply, .obj) from the photos "
+                        "that see it: model.obj, model.mtl, facades.json (scales), textures/. "
+                        "Lengths are in the model's unit.");
+  line.argument("model", r.model, "closed model, .ply or .obj");
+  line.argument("cameras", r.cameras,
+                "cameras in the model's coordinates: COLMAP, Bundler or PMVS");
+  line.argument("images", r.images, "folder of the photos");
+  line.text("output,o", r.output, "folder to write into");
+  line.number("texel", r.texturing.texel, cli::kNonNegative,
+              "side of a texel, length; 0: what the photos resolve");
+  line.number("max-texels", r.texturing.max_texels, cli::Range{1.0},
+              "most texels of all facades together");
+  line.flag("fill", r.texturing.fill, "fill what no photo saw from the facade's own repetition");
+  if (!line.parse(argc, argv)) return false;
   if (r.images.empty() || r.output.empty()) {
-    failUsage("a model, its cameras, the folder of the images, and an output (-o) are needed");
-  }
-  const storey::FacadeTexturingOptions& t = r.texturing;
-  if (!(t.texel >= 0.0 && std::isfinite(t.texel)) || !(t.max_texels >= 1.0)) {
-    failUsage("--texel must not be negative, nor --max-texels below 1");
+    line.fail("a model, its cameras, the folder of the images, and an output (-o) are needed");
   }
   return true;
 }
@@ -107,5 +83,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return io::runMain("storey_texture", [&] { return run(argc, argv); });
+  return storey::cli::runMain("storey_texture", [&] { return run(argc, argv); });
 }
