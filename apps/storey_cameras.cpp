@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Prints the cameras of photos, and checks them against a cloud.
 #include <algorithm>
-#include <boost/program_options.hpp>
 #include <cstdio>
-#include <iostream>
 #include <string>
 #include <vector>
 
 #include "cameras/agreement.h"
 #include "cameras/overlay.h"
+#include "cli/command_line.h"
 #include "io/cameras/camera_set.h"
 #include "io/cloud_reader.h"
 #include "io/failure.h"
@@ -18,8 +17,8 @@
 namespace {
 
 namespace cameras = storey::cameras;
+namespace cli = storey::cli;
 namespace io = storey::io;
-namespace options = boost::program_options;
 
 // Right cameras reach 0.9 and more; light above and dark below alone make 0.6.
 constexpr double kClearGain = 0.2;         // of agreement: a mistake was undone
@@ -34,40 +33,20 @@ struct Request {
   std::string output;
 };
 
-[[noreturn]] void failUsage(const std::string& reason) {
-  throw io::Failure(io::Usage, "", reason, "see storey_cameras --help");
-}
-
 bool parse(int argc, char** argv, Request& r) {
-  options::options_description visible(
-      "storey_cameras CAMERAS [IMAGES] [--cloud CLOUD] [-o DIR]\n"
-      "Prints the cameras of a COLMAP, Bundler or PMVS folder, in the world's unit and pixels, and "
-      "checks them:\nthe points of a cloud must have the same brightness in all photos");
-  visible.add_options()("cloud", options::value(&r.cloud),
-                        "cloud (.ply, .pcd) to check them against; needs IMAGES")(
-      "output,o", options::value(&r.output),
-      "folder for a picture of each photo with the cloud's points on it; needs --cloud")(
-      "help,h", "this text");
-  options::options_description all;
-  all.add(visible).add_options()("cameras", options::value(&r.cameras))("images",
-                                                                        options::value(&r.images));
-  options::positional_options_description positional;
-  positional.add("cameras", 1).add("images", 1);
-  options::variables_map given;
-  try {
-    options::store(
-        options::command_line_parser(argc, argv).options(all).positional(positional).run(), given);
-    options::notify(given);
-  } catch (const options::error& error) {
-    failUsage(error.what());
-  }
-  if (given.count("help") > 0) {
-    std::cout << visible;
-    return false;
-  }
-  if (r.cameras.empty()) failUsage("a file or folder of cameras is needed");
-  if (!r.cloud.empty() && r.images.empty()) failUsage("--cloud needs the folder of the images");
-  if (!r.output.empty() && r.cloud.empty()) failUsage("-o needs --cloud");
+  cli::CommandLine line("storey_cameras", {"CAMERAS [IMAGES] [--cloud CLOUD] [-o DIR]"},
+                        "Prints the cameras of a COLMAP, Bundler or PMVS folder, in the world's "
+                        "unit and pixels, and checks them: the points of a cloud must have the "
+                        "same brightness in all photos.");
+  line.argument("cameras", r.cameras, "file or folder of the cameras");
+  line.argument("images", r.images, "folder of the photos");
+  line.text("cloud", r.cloud, "cloud to check them against; needs IMAGES");
+  line.text("output,o", r.output,
+            "folder for a picture of each photo with the cloud's points on it; needs --cloud");
+  if (!line.parse(argc, argv)) return false;
+  if (r.cameras.empty()) line.fail("a file or folder of cameras is needed");
+  if (!r.cloud.empty() && r.images.empty()) line.fail("--cloud needs the folder of the images");
+  if (!r.output.empty() && r.cloud.empty()) line.fail("-o needs --cloud");
   return true;
 }
 
@@ -158,5 +137,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return io::runMain("storey_cameras", [&] { return run(argc, argv); });
+  return storey::cli::runMain("storey_cameras", [&] { return run(argc, argv); });
 }

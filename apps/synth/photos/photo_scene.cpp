@@ -113,6 +113,20 @@ Eigen::Vector3d PhotoScene::colorAlong(const Eigen::Vector3d& from,
   return fall > 0.0 ? groundColor(from + fall * direction) : kSky;
 }
 
+bool PhotoScene::isClear(const Camera& camera, std::size_t facade,
+                         const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d center = camera.center();
+  const auto pixel = camera.project(point);
+  if (!pixel || !camera.contains(*pixel)) return false;
+  if (!((center - point).dot(frames_[facade].normal()) > 0.0)) return false;
+  constexpr double kThere = 1.0 - 1e-6;  // of the way
+  const auto building = tree_.firstHit(center, point - center);
+  const auto occluder = occluders_.firstHit(center, point - center);
+  const bool behind =
+      building && building->distance < kThere && facade_of_[building->triangle] != facade;
+  return !behind && !(occluder && occluder->distance < kThere);
+}
+
 RgbImage PhotoScene::photograph(const Camera& camera, int k) const {
   const auto photo = static_cast<std::uint64_t>(k);
   const double range = std::log1p(options_.exposure);

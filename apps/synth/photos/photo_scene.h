@@ -41,6 +41,9 @@ class PhotoScene {
   /// The k-th photo: 2 x 2 rays a pixel, exposed, with noise.
   RgbImage photograph(const Camera& camera, int k) const;
 
+  /// Whether a camera sees a point of a facade: in its image, from the front, nothing in between.
+  bool isClear(const Camera& camera, std::size_t facade, const Eigen::Vector3d& point) const;
+
   /// A facade seen at right angles, without occluders, exposure and noise, 3 x 3 samples a texel;
   /// rows from the top. Texels whose middle is outside of the facade are black.
   RgbImage orthoImage(std::size_t facade, double texel_size) const;

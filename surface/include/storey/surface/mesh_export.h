@@ -2,9 +2,13 @@
 #pragma once
 
 #include <pcl/PolygonMesh.h>
+#include <pcl/TextureMesh.h>
+#include <storey/surface/facade_texturing.h>
 #include <storey/surface/polyhedral_model.h>
 
 #include <Eigen/Geometry>
+#include <string>
+#include <vector>
 
 namespace storey {
 
@@ -14,5 +18,15 @@ namespace storey {
 /// \note floats carry 7 digits: keep the model in local coordinates.
 pcl::PolygonMesh toPolygonMesh(const PolyhedralModel& model,
                                const Eigen::Isometry3d& transform = Eigen::Isometry3d::Identity());
+
+/// The same with a material and an image for each face, which `pcl::io::saveOBJFile` writes.
+/// \param textures of the model's faces, in their order, as `textureFacades(facadesOf(model), ...)`
+///        gives them
+/// \param images   names of the image files to refer to, parallel to `textures`; saving the images
+///        is left to the caller
+/// \return empty, after a PCL_ERROR, if the numbers of faces, textures and images differ
+pcl::TextureMesh toTextureMesh(const PolyhedralModel& model,
+                               const std::vector<FacadeTexture>& textures,
+                               const std::vector<std::string>& images);
 
 }  // namespace storey
