@@ -42,7 +42,7 @@ BoundingBoxTree::BoundingBoxTree(const pcl::PointCloud<pcl::PointXYZ>& positions
 bool BoundingBoxTree::leavesIn(const Box& box, std::size_t most,
                                std::vector<std::uint32_t>& leaves) const {
   struct Pending {
-    std::uint32_t group;   // of siblings
+    std::uint32_t group;  // of siblings
     std::uint8_t level;
     std::uint8_t meeting;  // bit i: sibling i is still to be entered
   };

@@ -20,16 +20,62 @@ typedef double Doubles __attribute__((vector_size(kDoubles * sizeof(double))));
 typedef float HalfFloats
     __attribute__((vector_size(kDoubles * sizeof(float)), aligned(4), may_alias));
 
+typedef std::uint32_t Places __attribute__((vector_size(32), aligned(4), may_alias));
+
+// For every byte the places of its bits that are set, and how many they are.
+struct SetBits {
+  alignas(32) std::array<std::array<std::uint32_t, 8>, 256> places{};
+  std::array<std::uint32_t, 256> counts{};
+
+  constexpr SetBits() {
+    for (std::size_t byte = 0; byte < 256; ++byte) {
+      for (std::uint32_t bit = 0; bit < 8; ++bit) {
+        if ((byte >> bit & 1U) != 0) {
+          places[byte][counts[byte]++] = bit;
+        }
+      }
+    }
+  }
+};
+constexpr SetBits kSetBits;
+
+// Lane i of a comparison as bit i.
+inline __attribute__((always_inline)) std::uint32_t bitsOf(const Ints& truth) {
+  Ints bits =
+      truth & Ints{1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
+  bits |= __builtin_shuffle(bits, Ints{8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7});
+  bits |= __builtin_shuffle(bits, Ints{4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11});
+  bits |= __builtin_shuffle(bits, Ints{2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13});
+  return static_cast<std::uint32_t>(bits[0] | bits[1]);
+}
+
 }  // namespace
 
 STOREY_EACH_INSTRUCTION_SET
-void squaredDistances(const float* x, const float* y, const float* z, std::size_t n,
-                      const float* q, float* squared) {
+void squaredDistances(const float* x, const float* y, const float* z, std::size_t n, const float* q,
+                      float* squared) {
   for (std::size_t i = 0; i < n; i += kLanes) {
     const Floats dx = *reinterpret_cast<const Floats*>(x + i) - q[0];
     const Floats dy = *reinterpret_cast<const Floats*>(y + i) - q[1];
     const Floats dz = *reinterpret_cast<const Floats*>(z + i) - q[2];
     *reinterpret_cast<Floats*>(squared + i) = dx * dx + dy * dy + dz * dz;
+  }
+}
+
+STOREY_EACH_INSTRUCTION_SET
+void squaredDistancesToBox(const float* x, const float* y, const float* z, std::size_t n,
+                           const float* low, const float* high, float* squared) {
+  const float* coordinates[3] = {x, y, z};
+  for (std::size_t i = 0; i < n; i += kLanes) {
+    Floats sum = {};
+    for (int axis = 0; axis < 3; ++axis) {
+      const Floats c = *reinterpret_cast<const Floats*>(coordinates[axis] + i);
+      const Floats before = low[axis] - c;
+      const Floats behind = c - high[axis];
+      const Floats outside = before > 0.0f ? before : behind > 0.0f ? behind : Floats{};
+      sum += outside * outside;
+    }
+    *reinterpret_cast<Floats*>(squared + i) = sum;
   }
 }
 
@@ -44,6 +90,24 @@ std::size_t countWithin(const float* values, std::size_t n, float limit) {
     sum += counts[lane];
   }
   return static_cast<std::size_t>(sum);
+}
+
+STOREY_EACH_INSTRUCTION_SET
+std::size_t placesWithin(const float* values, std::size_t n, float limit, std::uint32_t* places) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < n; i += kLanes) {
+    const Ints within = *reinterpret_cast<const Floats*>(values + i) <= limit;
+    const std::uint32_t bits = bitsOf(within);
+    for (std::uint32_t half = 0; half < 2; ++half) {
+      // All eight are stored and those in excess overwritten: there is no branch to guess.
+      const std::uint32_t byte = bits >> (8 * half) & 0xff;
+      *reinterpret_cast<Places*>(places + count) =
+          *reinterpret_cast<const Places*>(kSetBits.places[byte].data()) +
+          (static_cast<std::uint32_t>(i) + 8 * half);
+      count += kSetBits.counts[byte];
+    }
+  }
+  return count;
 }
 
 STOREY_EACH_INSTRUCTION_SET

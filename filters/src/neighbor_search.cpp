@@ -11,39 +11,90 @@ namespace storey::detail {
 namespace {
 
 constexpr std::size_t kFanOut = BoundingBoxTree::kFanOut;
-constexpr std::size_t kGroup = 16;          // positions that share their candidates
-constexpr std::ptrdiff_t kRange = 64;       // groups in a task of a thread
-constexpr float kReachMargin = 1.4f;        // of the squared reach of the group before
-constexpr std::size_t kLeavesForEach = 4;   // neighbour: more candidates than that are too many
+constexpr std::size_t kGroup = 32;         // positions that share their candidates
+constexpr std::ptrdiff_t kRange = 64;      // groups in a task of a thread
+constexpr float kReachMargin = 1.6f;       // of the squared reach of the group before
+constexpr std::size_t kLeavesForEach = 4;  // neighbour: more candidates than that are too many
 constexpr std::size_t kLeavesForAny = 16;
 constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 constexpr float kRounding = 1e-5f;  // of a squared distance in floats, with room to spare
-constexpr int kCountings = 12;
+constexpr int kCountings = 16;
+constexpr float kWider = 1.2f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 std::size_t mostLeaves(std::size_t k) { return kLeavesForAny + kLeavesForEach * k; }
 
 std::size_t paddedSize(std::size_t n) { return (n + kLanes - 1) / kLanes * kLanes; }
 
-// A limit that exactly k of the values do not exceed, by counting; NaN if there is none to be found,
-// because of ties. `guess` > 0.
-float limitOf(const std::vector<float>& values, std::size_t n, std::size_t k, float guess) {
+// A limit that exactly k of the values do not exceed, by counting; NaN if there is none to be
+// found, because of ties. `guess` > 0.
+float limitOf(const float* values, std::size_t n, std::size_t k, float guess) {
   float low = 0.0f;
   float high = kInfinity;
+  float below = 0.0f;  // how many are within `low`, and within `high`
+  float above = 0.0f;
+  const auto wanted = static_cast<float>(k);
   float limit = guess;
   for (int round = 0; round < kCountings; ++round) {
-    const std::size_t count = countWithin(values.data(), n, limit);
+    const std::size_t count = countWithin(values, n, limit);
     if (count == k) {
       return limit;
     }
-    (count < k ? low : high) = limit;
-    // On a surface the number of points within grows like the square of the distance.
-    limit *= static_cast<float>(k) / std::max(static_cast<float>(count), 0.5f);
+    if (count < k) {
+      low = limit;
+      below = static_cast<float>(count);
+    } else {
+      high = limit;
+      above = static_cast<float>(count);
+    }
+    // On a surface the number within a distance grows like its square, evenly between two limits.
+    limit = high < kInfinity ? low + (high - low) * (wanted + 0.5f - below) / (above + 1.0f - below)
+                             : kWider * low * wanted / std::max(below, 0.5f);
     if (!(limit > low && limit < high)) {
-      limit = high < kInfinity ? 0.5f * (low + high) : 2.0f * low;
+      limit = 0.5f * (low + high);
     }
   }
   return std::numeric_limits<float>::quiet_NaN();
+}
+
+// The places of the k least values where several equal the k-th: of those, the first ones.
+float placesOfLeast(std::size_t k, std::size_t n, NeighborSearch::Workspace& workspace) {
+  const std::vector<float>& squared = workspace.squared;
+  workspace.sorted.assign(squared.begin(), squared.begin() + static_cast<std::ptrdiff_t>(n));
+  const auto last = workspace.sorted.begin() + static_cast<std::ptrdiff_t>(k) - 1;
+  std::nth_element(workspace.sorted.begin(), last, workspace.sorted.end());
+  const float limit = *last;
+  auto ties = static_cast<std::ptrdiff_t>(k) -
+              std::count_if(workspace.sorted.begin(), last, [=](float d) { return d < limit; });
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (squared[i] < limit || (squared[i] == limit && ties-- > 0)) {
+      workspace.places[count++] = static_cast<std::uint32_t>(i);
+    }
+  }
+  return limit;
+}
+
+// The candidates at some places. Padded with infinity, or with the first of them.
+enum class Padding { Infinity, First };
+void choose(const NeighborSearch::Candidates& from, std::size_t count,
+            const std::vector<std::uint32_t>& places, Padding padding,
+            NeighborSearch::Candidates& chosen) {
+  chosen.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t place = places[i];
+    chosen.x[i] = from.x[place];
+    chosen.y[i] = from.y[place];
+    chosen.z[i] = from.z[place];
+    chosen.ids[i] = from.ids[place];
+  }
+  chosen.count = count;
+  const bool first = padding == Padding::First;
+  for (std::size_t i = count; i < chosen.padded(); ++i) {
+    chosen.x[i] = first ? chosen.x[0] : kInfinity;
+    chosen.y[i] = first ? chosen.y[0] : 0.0f;
+    chosen.z[i] = first ? chosen.z[0] : 0.0f;
+  }
 }
 
 }  // namespace
@@ -62,6 +113,14 @@ float Neighborhood::squaredRadius() const {
 Moments Neighborhood::moments() const {
   const std::array<float, 3> first{x[0], y[0], z[0]};
   return momentsAbout(x, y, z, paddedSize(count), first.data(), count);
+}
+
+void NeighborSearch::Candidates::resize(std::size_t size) {
+  const std::size_t padded = paddedSize(size);
+  x.resize(padded);
+  y.resize(padded);
+  z.resize(padded);
+  ids.resize(padded);
 }
 
 NeighborSearch::NeighborSearch(const Cloud::ConstPtr& positions)
@@ -120,7 +179,7 @@ void NeighborSearch::visitRange(std::size_t begin, std::size_t end, std::size_t 
     if (wanted[id] == 0) {
       continue;
     }
-    if (!together || workspace.num_candidates < k) {
+    if (!together || workspace.candidates.count < k) {
       unproven[num_unproven++] = {id, squared_reach};
       continue;
     }
@@ -162,30 +221,36 @@ bool NeighborSearch::gather(const Box& box, float reach, std::size_t most_leaves
   if (!tree_.leavesIn(wide, most_leaves, workspace.leaves)) {
     return false;
   }
-  const std::size_t n = workspace.leaves.size() * kFanOut;
-  const std::size_t padded = paddedSize(n);
-  workspace.x.resize(padded);
-  workspace.y.resize(padded);
-  workspace.z.resize(padded);
-  workspace.squared.resize(padded);
-  workspace.num_candidates = 0;
+  fillFromLeaves(workspace);
+  Candidates& all = workspace.in_leaves;
+  workspace.squared.resize(all.padded());
+  workspace.places.resize(all.padded() + kLanes);
+  squaredDistancesToBox(all.x.data(), all.y.data(), all.z.data(), all.padded(), box.low.data(),
+                        box.high.data(), workspace.squared.data());
+  const float farthest = reach * reach * (1.0f + kRounding);
+  choose(all,
+         placesWithin(workspace.squared.data(), all.padded(), farthest, workspace.places.data()),
+         workspace.places, Padding::Infinity, workspace.candidates);
+  return true;
+}
+
+void NeighborSearch::fillFromLeaves(Workspace& workspace) const {
+  Candidates& all = workspace.in_leaves;
+  all.resize(workspace.leaves.size() * kFanOut);
   std::size_t place = 0;
   for (const std::uint32_t leaf : workspace.leaves) {
     const std::size_t first = leaf * kFanOut;
-    const std::size_t count = std::min(kFanOut, positions_->size() - first);
-    for (std::size_t i = 0; i < count; ++i) {
-      const pcl::PointXYZ& p = (*positions_)[first + i];
-      workspace.x[place + i] = p.x;
-      workspace.y[place + i] = p.y;
-      workspace.z[place + i] = p.z;
+    const std::size_t last = std::min(first + kFanOut, positions_->size());
+    for (std::size_t i = first; i < last; ++i, ++place) {
+      const pcl::PointXYZ& p = (*positions_)[i];
+      all.x[place] = p.x;
+      all.y[place] = p.y;
+      all.z[place] = p.z;
+      all.ids[place] = static_cast<pcl::index_t>(i);
     }
-    workspace.num_candidates += count;
-    place += count;
   }
-  std::fill(workspace.x.begin() + static_cast<std::ptrdiff_t>(place), workspace.x.end(), kInfinity);
-  std::fill(workspace.y.begin() + static_cast<std::ptrdiff_t>(place), workspace.y.end(), 0.0f);
-  std::fill(workspace.z.begin() + static_cast<std::ptrdiff_t>(place), workspace.z.end(), 0.0f);
-  return true;
+  all.count = place;
+  std::fill(all.x.begin() + static_cast<std::ptrdiff_t>(place), all.x.end(), kInfinity);
 }
 
 Neighborhood NeighborSearch::searchAlone(std::size_t id, std::size_t k,
@@ -201,7 +266,7 @@ Neighborhood NeighborSearch::searchAlone(std::size_t id, std::size_t k,
   while (true) {
     if (!gather(box, reach, grown ? kNoLimit : mostLeaves(k), workspace)) {
       reach *= 0.5f;
-    } else if (workspace.num_candidates < k) {
+    } else if (workspace.candidates.count < k) {
       reach *= 2.0f;
       grown = true;
     } else {
@@ -217,55 +282,29 @@ Neighborhood NeighborSearch::searchAlone(std::size_t id, std::size_t k,
   return take(id, k, workspace);
 }
 
-// The k nearest of the candidates; `workspace.squared_reach` becomes the square of a distance within
-// which they lie.
+// The k nearest of the candidates; `workspace.squared_reach` becomes the square of a distance
+// within which they lie.
 Neighborhood NeighborSearch::take(std::size_t id, std::size_t k, Workspace& workspace) const {
   const pcl::PointXYZ& p = (*positions_)[id];
-  const std::size_t n = workspace.squared.size();
-  Neighborhood result;
-  result.id = static_cast<pcl::index_t>(id);
-  result.position = {p.x, p.y, p.z};
-  result.count = k;
-  std::vector<float>& squared = workspace.squared;
-  squaredDistances(workspace.x.data(), workspace.y.data(), workspace.z.data(), n,
-                   result.position.data(), squared.data());
-  float limit = limitOf(squared, n, k, workspace.squared_reach);
-  std::size_t ties = k;  // taken of those at the limit itself
+  const Candidates& candidates = workspace.candidates;
+  squaredDistances(candidates.x.data(), candidates.y.data(), candidates.z.data(),
+                   candidates.padded(), p.data, workspace.squared.data());
+  float limit = limitOf(workspace.squared.data(), candidates.padded(), k, workspace.squared_reach);
   if (std::isnan(limit)) {
-    workspace.sorted.assign(squared.begin(), squared.end());
-    const auto last = workspace.sorted.begin() + static_cast<std::ptrdiff_t>(k) - 1;
-    std::nth_element(workspace.sorted.begin(), last, workspace.sorted.end());
-    limit = *last;
-    ties = k - static_cast<std::size_t>(std::count_if(squared.begin(), squared.end(),
-                                                      [limit](float d) { return d < limit; }));
+    limit = placesOfLeast(k, candidates.padded(), workspace);
+  } else {
+    placesWithin(workspace.squared.data(), candidates.padded(), limit, workspace.places.data());
   }
-  const std::size_t padded = paddedSize(k);
-  workspace.nearest_x.resize(padded + 1);  // one more: the loop writes before it knows
-  workspace.nearest_y.resize(padded + 1);
-  workspace.nearest_z.resize(padded + 1);
-  workspace.nearest_ids.resize(padded + 1);
-  std::size_t taken = 0;
-  for (std::size_t i = 0; i < workspace.num_candidates; ++i) {
-    workspace.nearest_x[taken] = workspace.x[i];
-    workspace.nearest_y[taken] = workspace.y[i];
-    workspace.nearest_z[taken] = workspace.z[i];
-    workspace.nearest_ids[taken] =
-        static_cast<pcl::index_t>(workspace.leaves[i / kFanOut] * kFanOut + i % kFanOut);
-    const bool at_limit = squared[i] == limit;
-    taken += (squared[i] < limit) | (at_limit & (ties > 0));
-    ties -= at_limit & (ties > 0);
-  }
-  for (std::size_t i = k; i < padded; ++i) {
-    workspace.nearest_x[i] = workspace.nearest_x[0];
-    workspace.nearest_y[i] = workspace.nearest_y[0];
-    workspace.nearest_z[i] = workspace.nearest_z[0];
-  }
+  choose(candidates, k, workspace.places, Padding::First, workspace.nearest);
   workspace.squared_reach = std::max(limit, std::numeric_limits<float>::min());
-  result.ids = workspace.nearest_ids.data();
-  result.x = workspace.nearest_x.data();
-  result.y = workspace.nearest_y.data();
-  result.z = workspace.nearest_z.data();
-  return result;
+  const Candidates& nearest = workspace.nearest;
+  return {static_cast<pcl::index_t>(id),
+          {p.x, p.y, p.z},
+          k,
+          nearest.ids.data(),
+          nearest.x.data(),
+          nearest.y.data(),
+          nearest.z.data()};
 }
 
 }  // namespace storey::detail

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFalloff = 0.02;  // [Sui et al. 2016, Sec. 3.1]
 constexpr double kMinPositions = 4.0;
 constexpr int kLaguerreRounds = 10;  // three or four are enough
-constexpr double kSettled = 1e-14;
+constexpr double kSettled = 1e-6;    // relative: the next step, a third power, would be rounding
 
 // The smallest root of the characteristic polynomial x^3 - x^2 + minors x - determinant of a
 // covariance with trace 1. All roots are real, so Laguerre's method goes up to it from 0 without
@@ -37,8 +37,7 @@ double smallestEigenvalue(double minors, double determinant) {
   return x;
 }
 
-Moments momentsOf(const pcl::PointCloud<pcl::PointXYZ>& positions,
-                  const pcl::Indices& neighbors) {
+Moments momentsOf(const pcl::PointCloud<pcl::PointXYZ>& positions, const pcl::Indices& neighbors) {
   if (neighbors.empty()) {
     return {};
   }
@@ -57,29 +56,29 @@ Moments momentsOf(const pcl::PointCloud<pcl::PointXYZ>& positions,
 }  // namespace
 
 double planarConfidence(const Moments& moments) {
-  const double n = moments.count;
-  if (n < kMinPositions) {
+  if (moments.count < kMinPositions) {
     return 0.0;
   }
+  const double share = 1.0 / moments.count;
   const auto& s = moments.sum;
   const auto& p = moments.products;
-  double xx = p[0] - s[0] * s[0] / n;
-  double yy = p[3] - s[1] * s[1] / n;
-  double zz = p[5] - s[2] * s[2] / n;
+  double xx = p[0] - s[0] * s[0] * share;
+  double yy = p[3] - s[1] * s[1] * share;
+  double zz = p[5] - s[2] * s[2] * share;
   const double trace = xx + yy + zz;
   if (!(trace > 0.0)) {
     return 0.0;
   }
-  xx /= trace;
-  yy /= trace;
-  zz /= trace;
-  const double xy = (p[1] - s[0] * s[1] / n) / trace;
-  const double xz = (p[2] - s[0] * s[2] / n) / trace;
-  const double yz = (p[4] - s[1] * s[2] / n) / trace;
+  const double unit = 1.0 / trace;
+  xx *= unit;
+  yy *= unit;
+  zz *= unit;
+  const double xy = (p[1] - s[0] * s[1] * share) * unit;
+  const double xz = (p[2] - s[0] * s[2] * share) * unit;
+  const double yz = (p[4] - s[1] * s[2] * share) * unit;
   const double minor = yy * zz - yz * yz;
   const double minors = minor + xx * yy - xy * xy + xx * zz - xz * xz;
-  const double determinant =
-      xx * minor - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+  const double determinant = xx * minor - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
   const double least = smallestEigenvalue(minors, determinant);
   return least > 0.0 ? 1.0 - std::exp(-kFalloff / least) : 1.0;
 }

@@ -44,15 +44,23 @@ class NeighborSearch {
   using Cloud = pcl::PointCloud<pcl::PointXYZ>;
   using Visit = std::function<void(const Neighborhood&)>;
 
+  /// Positions in plain arrays, padded with infinity to a multiple of `kLanes`.
+  struct Candidates {
+    std::vector<float> x, y, z;
+    std::vector<pcl::index_t> ids;
+    std::size_t count = 0;
+
+    void resize(std::size_t size);
+    std::size_t padded() const { return x.size(); }
+  };
+
   /// Memory for searches, one for each thread. What it remembers makes the next search faster, but
   /// does not change what it finds.
   struct Workspace {
     float squared_reach = 0.0f;  ///< of the neighbourhoods lately found; 0: none yet
-    std::vector<std::uint32_t> leaves;
-    std::size_t num_candidates = 0;
-    std::vector<float> x, y, z, squared;  ///< of the candidates
-    std::vector<float> nearest_x, nearest_y, nearest_z, sorted;
-    std::vector<pcl::index_t> nearest_ids;
+    std::vector<std::uint32_t> leaves, places;
+    Candidates in_leaves, candidates, nearest;
+    std::vector<float> squared, sorted;  ///< squared distances of the candidates
   };
 
   /// O(n). \param positions distinct and searchable, in Morton order
@@ -61,8 +69,8 @@ class NeighborSearch {
   /// The k nearest of position `id`, or all positions if there are fewer.
   Neighborhood nearest(pcl::index_t id, std::size_t k, Workspace& workspace) const;
 
-  /// Visits the neighbourhoods of all positions marked in `wanted` (parallel to the positions), from
-  /// several threads at once.
+  /// Visits the neighbourhoods of all positions marked in `wanted` (parallel to the positions),
+  /// from several threads at once.
   void forEach(std::size_t k, const std::vector<char>& wanted, unsigned int threads,
                const Visit& visit) const;
 
@@ -71,6 +79,7 @@ class NeighborSearch {
                   const std::vector<char>& wanted, Workspace& workspace, const Visit& visit) const;
   Box boxOf(std::size_t begin, std::size_t end) const;
   bool gather(const Box& box, float reach, std::size_t most_leaves, Workspace& workspace) const;
+  void fillFromLeaves(Workspace& workspace) const;
   Neighborhood searchAlone(std::size_t id, std::size_t k, Workspace& workspace) const;
   Neighborhood take(std::size_t id, std::size_t k, Workspace& workspace) const;
 

@@ -16,8 +16,8 @@ namespace storey::detail {
 /// so no evidence of a plane). 0 for fewer than 4 positions: three always lie on a plane.
 double planarConfidence(const Moments& moments);
 
-/// Finds the k nearest of position `id`, itself among them, as ids of positions. Called from several
-/// threads at once.
+/// Finds the k nearest of position `id`, itself among them, as ids of positions. Called from
+/// several threads at once.
 using NeighborQuery = std::function<void(pcl::index_t id, int k, pcl::Indices& neighbors)>;
 
 /// Confidences of the positions marked in `wanted` (parallel to `positions`; 0 elsewhere) from
