@@ -20,7 +20,8 @@ constexpr double kNormalMad = 1.4826;   // standard deviation over median absolu
 constexpr double kSinSamePlane = 0.1;   // walls that differ by less than 6 degrees face one way
 constexpr int kRounds = 8;
 constexpr int kTukeyRounds = 20;
-constexpr double kSettled = 1e-6;  // rad
+constexpr double kSettled = 1e-6;   // rad
+constexpr double kMinorTurn = 0.1;  // deviations: less is not worth another round
 
 // The plane of one column of wall: its horizontal normal, and its lean n.up with that value's
 // standard deviation.
@@ -190,7 +191,7 @@ VerticalFit refineByPositions(const Vectors3d& positions, const Vectors3d& norma
     const Eigen::Matrix<double, 3, 2> frame = tangentFrame(fit.up);
     const Eigen::Vector2d turn = robustTurn(columns, frame, fit);
     fit.up = (fit.up + frame * turn).normalized();
-    if (turn.norm() < kSettled) {
+    if (turn.norm() < std::max(kSettled, kMinorTurn * fit.deviation)) {
       break;
     }
   }

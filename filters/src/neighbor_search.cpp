@@ -102,10 +102,7 @@ void choose(const NeighborSearch::Candidates& from, std::size_t count,
 float Neighborhood::squaredRadius() const {
   float largest = 0.0f;
   for (std::size_t i = 0; i < count; ++i) {
-    const float dx = x[i] - position[0];
-    const float dy = y[i] - position[1];
-    const float dz = z[i] - position[2];
-    largest = std::max(largest, dx * dx + dy * dy + dz * dz);
+    largest = std::max(largest, squaredDistance(i));
   }
   return largest;
 }

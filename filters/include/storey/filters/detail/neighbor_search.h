@@ -25,6 +25,12 @@ struct Neighborhood {
   const float* y = nullptr;
   const float* z = nullptr;
 
+  float squaredDistance(std::size_t i) const {
+    const float dx = x[i] - position[0];
+    const float dy = y[i] - position[1];
+    const float dz = z[i] - position[2];
+    return dx * dx + dy * dy + dz * dz;
+  }
   /// Squared distance to the farthest.
   float squaredRadius() const;
   /// About the first, so that equal neighbourhoods have equal moments.
