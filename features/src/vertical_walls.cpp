@@ -21,7 +21,7 @@ constexpr double kSinSamePlane = 0.1;   // walls that differ by less than 6 degr
 constexpr int kRounds = 8;
 constexpr int kTukeyRounds = 20;
 constexpr double kSettled = 1e-6;   // rad
-constexpr double kMinorTurn = 0.1;  // deviations: less is not worth another round
+constexpr double kMinorTurn = 0.5;  // deviations: so much every turn changes the columns anyway
 
 // The plane of one column of wall: its horizontal normal, and its lean n.up with that value's
 // standard deviation.
