@@ -1,14 +1,14 @@
 # The picture of doc/performance.md from the table that storey_performance writes:
 # gnuplot -e 'csv="out"; pictures="doc/pictures"' bench/performance_plot.gnuplot
 set datafile separator ","
-set terminal svg size 760,460 font "sans,13" background "white"
+set terminal svg size 760,560 font "sans,13" background "white"
 set output pictures."/performance.svg"
 set title "CPU seconds of one thread over points"
 set xlabel "points"
 set ylabel "CPU seconds"
 set logscale xy
-set xrange [80000:3e7]
-set key top left
+set offsets graph 0.05, graph 0.05, 0, 0
+set key outside below
 set grid lc rgb "#dddddd"
 table = csv."/performance.csv"
 row(name) = sprintf("< grep -F '\"%s\"' %s", name, table)
