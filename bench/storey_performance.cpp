@@ -95,7 +95,7 @@ std::string measureStages(const std::string& path, reconstruct::Method method) {
   options.input = path;
   options.method = method;
   options.threads = 1;
-  const reconstruct::Result result = reconstruct::reconstruct(options, [](const std::string&) {});
+  const reconstruct::Result result = reconstruct::reconstruct(options);
   std::string text;
   double total = 0.0;
   for (const reconstruct::StageTime& stage : result.times) {
