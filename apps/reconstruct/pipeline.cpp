@@ -2,6 +2,7 @@
 #include "reconstruct/pipeline.h"
 
 #include <chrono>
+#include <ctime>
 
 #include "stages/planar.h"
 #include "stages/stage_cloud_io.h"
@@ -55,9 +56,11 @@ class Pipeline {
   template <typename Work>
   void stage(const char* name, Work work) {
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t cpu_start = std::clock();
     const std::string found = work();
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    result_.times.push_back({name, seconds.count()});
+    const double cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+    result_.times.push_back({name, seconds.count(), cpu_seconds});
     observers_.progress(stages::format("%-11s %6.2f s  %s", name, seconds.count(), found.c_str()));
   }
 

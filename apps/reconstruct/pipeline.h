@@ -17,6 +17,7 @@ using stages::Point;
 struct StageTime {
   std::string name;
   double seconds = 0.0;
+  double cpu_seconds = 0.0;  ///< of all threads together
 };
 
 /// What every stage found, from the cloud to the model.

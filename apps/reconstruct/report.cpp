@@ -283,12 +283,17 @@ std::string describe(const Options& options, const Result& r) {
   report["support"] = describeSupport(r.model.model);
   report["model"] = describeModel(r);
   Json& seconds = report["seconds"];
+  Json& cpu_seconds = report["cpu_seconds"];  // of all threads together
   double total = 0.0;
+  double cpu_total = 0.0;
   for (const StageTime& stage : r.times) {
     seconds[stage.name] = stage.seconds;
+    cpu_seconds[stage.name] = stage.cpu_seconds;
     total += stage.seconds;
+    cpu_total += stage.cpu_seconds;
   }
   seconds["total"] = total;
+  cpu_seconds["total"] = cpu_total;
   report["peak_megabytes"] = peakMegabytes();
 
   // File names need not be UTF-8, JSON must be: replace what is not.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <unordered_map>
 
 namespace storey {
 namespace {
@@ -17,6 +19,7 @@ struct Vote {
   std::uint64_t key = 0;
   Eigen::Vector3d x = Eigen::Vector3d::Zero();  // horizontal, like the normal
   Eigen::Vector3d n = Eigen::Vector3d::Zero();
+  double count = 0.0;  // of points
 };
 
 std::uint64_t keyOf(const Eigen::Vector3d& x, const Eigen::Vector3d& low, double side) {
@@ -25,44 +28,42 @@ std::uint64_t keyOf(const Eigen::Vector3d& x, const Eigen::Vector3d& low, double
          static_cast<std::uint64_t>(cell.z());
 }
 
-std::vector<Vote> wallPoints(const detail::OrientedPoints& points, const Eigen::Vector3d& up) {
-  std::vector<Vote> walls;
-  Eigen::Vector3d low = Eigen::Vector3d::Zero();
-  Eigen::Vector3d high = Eigen::Vector3d::Zero();
+bool isWall(const Eigen::Vector3d& normal, const Eigen::Vector3d& up) {
+  return std::abs(normal.dot(up)) < kWallNormal;
+}
+
+// The mean position and normal of the wall points in each voxel, by voxel. Opposite normals in a
+// voxel weaken its vote.
+std::vector<Vote> votesOf(const detail::OrientedPoints& points, const Eigen::Vector3d& up) {
+  Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::max());
+  Eigen::Array3d high = -low;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (std::abs(points.normals[i].dot(up)) < kWallNormal) {
-      const Eigen::Vector3d& x = points.positions[i];
-      low = walls.empty() ? x : Eigen::Vector3d(low.cwiseMin(x));
-      high = walls.empty() ? x : Eigen::Vector3d(high.cwiseMax(x));
-      walls.push_back({0, x, points.normals[i]});
+    if (isWall(points.normals[i], up)) {
+      low = low.min(points.positions[i].array());
+      high = high.max(points.positions[i].array());
     }
   }
   const double side = (high - low).maxCoeff() / kVotesAcross;
-  for (Vote& w : walls) {
-    w.key = side > 0.0 ? keyOf(w.x, low, side) : 0;
-    w.x -= up * up.dot(w.x);
-    w.n -= up * up.dot(w.n);
-  }
-  std::stable_sort(walls.begin(), walls.end(),
-                   [](const Vote& a, const Vote& b) { return a.key < b.key; });
-  return walls;
-}
-
-// The mean position and normal of each voxel. Opposite normals in a voxel weaken its vote.
-std::vector<Vote> votesOf(const std::vector<Vote>& walls) {
   std::vector<Vote> votes;
-  for (std::size_t begin = 0; begin < walls.size();) {
-    Vote vote;
-    std::size_t end = begin;
-    for (; end < walls.size() && walls[end].key == walls[begin].key; ++end) {
-      vote.x += walls[end].x;
-      vote.n += walls[end].n;
+  std::unordered_map<std::uint64_t, std::size_t> vote_of_voxel;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (isWall(points.normals[i], up)) {
+      const std::uint64_t key = side > 0.0 ? keyOf(points.positions[i], low.matrix(), side) : 0;
+      const auto [place, is_new] = vote_of_voxel.try_emplace(key, votes.size());
+      if (is_new) {
+        votes.emplace_back().key = key;
+      }
+      Vote& vote = votes[place->second];
+      vote.x += points.positions[i] - up * up.dot(points.positions[i]);
+      vote.n += points.normals[i] - up * up.dot(points.normals[i]);
+      vote.count += 1.0;
     }
-    vote.x /= static_cast<double>(end - begin);
-    vote.n /= static_cast<double>(end - begin);
-    votes.push_back(vote);
-    begin = end;
   }
+  for (Vote& vote : votes) {
+    vote.x /= vote.count;
+    vote.n /= vote.count;
+  }
+  std::sort(votes.begin(), votes.end(), [](const Vote& a, const Vote& b) { return a.key < b.key; });
   return votes;
 }
 
@@ -74,7 +75,7 @@ NormalSideEvidence detail::judgeNormalSide(const OrientedPoints& points,
   if (!up.allFinite() || up.isZero()) {
     return result;
   }
-  const std::vector<Vote> votes = votesOf(wallPoints(points, up.normalized()));
+  const std::vector<Vote> votes = votesOf(points, up.normalized());
   if (votes.empty()) {
     return result;
   }

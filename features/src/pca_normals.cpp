@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl/kdtree/kdtree_flann.h>
-#include <storey/features/detail/thread_count.h>
 #include <storey/features/pca_normals.h>
 #include <storey/filters/cloud_scale.h>
+#include <storey/filters/detail/neighbor_search.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -22,19 +21,15 @@ int derivedNeighbors(const std::vector<Eigen::Vector3f>& positions) {
   return static_cast<int>(std::lround(std::clamp<double>(k, kFewestNeighbors, kMostNeighbors)));
 }
 
-PcaNormal fitNormal(const pcl::PointCloud<pcl::PointXYZ>& cloud, const pcl::Indices& neighbors) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const pcl::index_t j : neighbors) {
-    mean += cloud[static_cast<std::size_t>(j)].getVector3fMap().cast<double>();
-  }
-  mean /= static_cast<double>(neighbors.size());
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const pcl::index_t j : neighbors) {
-    const Eigen::Vector3d d =
-        cloud[static_cast<std::size_t>(j)].getVector3fMap().cast<double>() - mean;
-    covariance += d * d.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+PcaNormal fitNormal(const Moments& moments) {
+  const Eigen::Vector3d mean =
+      Eigen::Map<const Eigen::Vector3d>(moments.sum.data()) / moments.count;
+  const auto& m = moments.products;
+  Eigen::Matrix3d covariance;
+  covariance << m[0], m[1], m[2], m[1], m[3], m[4], m[2], m[4], m[5];
+  covariance -= moments.count * mean * mean.transpose();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(covariance);
   const Eigen::Vector3d& l = solver.eigenvalues();  // ascending
   PcaNormal result;
   if (l[1] > kLine * l[2]) {
@@ -54,19 +49,12 @@ std::vector<PcaNormal> estimatePcaNormals(const std::vector<Eigen::Vector3f>& po
   if (distinct.cloud->size() < 3) {
     return result;
   }
-  pcl::KdTreeFLANN<pcl::PointXYZ> tree(false);
-  tree.setInputCloud(distinct.cloud);
   std::vector<PcaNormal> fitted(distinct.cloud->size());
-#pragma omp parallel num_threads(threadCount(num_threads))
-  {
-    pcl::Indices neighbors;
-    std::vector<float> squared;
-#pragma omp for schedule(dynamic, 1024)
-    for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(fitted.size()); ++i) {
-      tree.nearestKSearch((*distinct.cloud)[static_cast<std::size_t>(i)], k, neighbors, squared);
-      fitted[static_cast<std::size_t>(i)] = fitNormal(*distinct.cloud, neighbors);
-    }
-  }
+  const std::vector<char> all(fitted.size(), 1);
+  NeighborSearch(distinct.cloud)
+      .forEach(static_cast<std::size_t>(k), all, num_threads, [&](const Neighborhood& found) {
+        fitted[static_cast<std::size_t>(found.id)] = fitNormal(found.moments());
+      });
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (distinct.id_of_input[i] >= 0) {
       result[i] = fitted[static_cast<std::size_t>(distinct.id_of_input[i])];

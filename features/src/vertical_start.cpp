@@ -41,6 +41,43 @@ bool isBorneOut(const Vectors3d& normals, const Eigen::Vector3d& guess, double b
   return walls + level >= kGuessGoodAs * best_score;
 }
 
+Eigen::Vector3d convergeOnNormals(const Vectors3d& normals, const Eigen::Vector3d& start) {
+  // Converges to the smallest eigenvector of the wall normals. Where all walls face one way, that
+  // is drawn at random from the plane across; so `up` moves only in directions in which the normals
+  // spread by more than their noise, which is how much they spread along `up`.
+  Eigen::Vector3d up = start;
+  for (int round = 0; round < kNormalRounds; ++round) {
+    const Eigen::Matrix<double, 3, 2> frame = tangentFrame(up);
+    Eigen::Matrix2d a = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d b = Eigen::Vector2d::Zero();
+    double noise = 0.0;
+    for (const Eigen::Vector3d& n : normals) {
+      const double lean = n.dot(up);
+      const double t = lean / kNormalGate;
+      if (t * t < 1.0) {
+        const double weight = (1.0 - t * t) * (1.0 - t * t);
+        const Eigen::Vector2d h = frame.transpose() * n;
+        a += weight * h * h.transpose();
+        b -= weight * lean * h;
+        noise += weight * lean * lean;
+      }
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(a);
+    Eigen::Vector2d turn = Eigen::Vector2d::Zero();
+    for (int k = 0; k < 2; ++k) {
+      if (solver.eigenvalues()[k] > kSpreadOverNoise * noise && solver.eigenvalues()[k] > 0.0) {
+        const Eigen::Vector2d axis = solver.eigenvectors().col(k);
+        turn += axis * (axis.dot(b) / solver.eigenvalues()[k]);
+      }
+    }
+    up = (up + frame * turn).normalized();
+    if (turn.norm() < kSettled) {
+      break;
+    }
+  }
+  return up;
+}
+
 }  // namespace
 
 Eigen::Matrix<double, 3, 2> tangentFrame(const Eigen::Vector3d& up) {
@@ -96,40 +133,8 @@ VerticalStart findVerticalStart(const Vectors3d& normals, const Eigen::Vector3d&
 }
 
 Eigen::Vector3d refineByNormals(const Vectors3d& normals, const Eigen::Vector3d& start) {
-  // Converges to the smallest eigenvector of the wall normals. Where all walls face one way, that
-  // is drawn at random from the plane across; so `up` moves only in directions in which the normals
-  // spread by more than their noise, which is how much they spread along `up`.
-  Eigen::Vector3d up = start;
-  for (int round = 0; round < kNormalRounds; ++round) {
-    const Eigen::Matrix<double, 3, 2> frame = tangentFrame(up);
-    Eigen::Matrix2d a = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d b = Eigen::Vector2d::Zero();
-    double noise = 0.0;
-    for (const Eigen::Vector3d& n : normals) {
-      const double lean = n.dot(up);
-      const double t = lean / kNormalGate;
-      if (t * t < 1.0) {
-        const double weight = (1.0 - t * t) * (1.0 - t * t);
-        const Eigen::Vector2d h = frame.transpose() * n;
-        a += weight * h * h.transpose();
-        b -= weight * lean * h;
-        noise += weight * lean * lean;
-      }
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(a);
-    Eigen::Vector2d turn = Eigen::Vector2d::Zero();
-    for (int k = 0; k < 2; ++k) {
-      if (solver.eigenvalues()[k] > kSpreadOverNoise * noise && solver.eigenvalues()[k] > 0.0) {
-        const Eigen::Vector2d axis = solver.eigenvectors().col(k);
-        turn += axis * (axis.dot(b) / solver.eigenvalues()[k]);
-      }
-    }
-    up = (up + frame * turn).normalized();
-    if (turn.norm() < kSettled) {
-      break;
-    }
-  }
-  return up;
+  // Some of the normals lead to where all need but a round or two.
+  return convergeOnNormals(normals, convergeOnNormals(everyNth(normals, kScoredNormals), start));
 }
 
 Eigen::Vector3d refineByHorizontals(const Vectors3d& normals, const Eigen::Vector3d& start,

@@ -5,22 +5,23 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <unordered_map>
 
 namespace storey::detail {
 namespace {
 
-constexpr double kWallGate = 0.35;         // |n.up| of a wall with noise of 15 degrees
-constexpr std::size_t kFewestPoints = 30;  // of a column
-constexpr double kFlat = 4.0;              // variance along over variance across a wall, at least
-constexpr double kRoughness = 4.0;         // variance across over that of good columns, at most
-constexpr double kStraightness = 3e-4;     // rad, how well real walls stand
-constexpr double kTukey = 4.685;           // 95 % efficiency under normal errors
-constexpr double kNormalMad = 1.4826;      // standard deviation over median absolute deviation
-constexpr double kSinSamePlane = 0.1;      // walls that differ by less than 6 degrees face one way
+constexpr double kWallGate = 0.35;      // |n.up| of a wall with noise of 15 degrees
+constexpr double kFewestPoints = 30.0;  // of a column
+constexpr double kFlat = 4.0;           // variance along over variance across a wall, at least
+constexpr double kRoughness = 4.0;      // variance across over that of good columns, at most
+constexpr double kStraightness = 3e-4;  // rad, how well real walls stand
+constexpr double kTukey = 4.685;        // 95 % efficiency under normal errors
+constexpr double kNormalMad = 1.4826;   // standard deviation over median absolute deviation
+constexpr double kSinSamePlane = 0.1;   // walls that differ by less than 6 degrees face one way
 constexpr int kRounds = 8;
 constexpr int kTukeyRounds = 20;
-constexpr double kSettled = 1e-6;  // rad
+constexpr double kSettled = 1e-6;   // rad
+constexpr double kMinorTurn = 0.5;  // deviations: so much every turn changes the columns anyway
 
 // The plane of one column of wall: its horizontal normal, and its lean n.up with that value's
 // standard deviation.
@@ -31,9 +32,22 @@ struct Column {
   double variance = 0.0;  // across the plane
 };
 
-struct Keyed {
-  std::uint64_t key;
-  std::uint32_t point;
+// Moments of the points of a column in upright local coordinates, about a point inside it.
+struct ColumnMoments {
+  double count = 0.0;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+
+  void add(const Eigen::Vector3d& point) {
+    if (count == 0.0) {
+      origin = point;
+    }
+    const Eigen::Vector3d d = point - origin;
+    count += 1.0;
+    sum += d;
+    products += d * d.transpose();
+  }
 };
 
 double quantile(std::vector<double> values, double share) {
@@ -43,42 +57,37 @@ double quantile(std::vector<double> values, double share) {
   return *place;
 }
 
-// The wall points, sorted by the column they stand in.
-std::vector<Keyed> columnsOfPoints(const Vectors3d& positions, const Vectors3d& normals,
-                                   const Eigen::Vector3d& up,
-                                   const Eigen::Matrix<double, 3, 2>& frame, double cell) {
-  std::vector<Keyed> keyed;
+// The columns that wall points stand in, by the first of their points.
+std::vector<ColumnMoments> momentsOfColumns(const Vectors3d& positions, const Vectors3d& normals,
+                                            const Eigen::Vector3d& up, double cell) {
+  Eigen::Matrix3d to_local;
+  to_local << tangentFrame(up).transpose(), up.transpose();
+  std::unordered_map<std::uint64_t, std::size_t> column_of_cell;
+  std::vector<ColumnMoments> columns;
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (std::abs(normals[i].dot(up)) < kWallGate) {
-      const Eigen::Vector2d c = (frame.transpose() * positions[i] / cell).array().floor();
-      if (c.cwiseAbs().maxCoeff() < 1e9) {
-        const auto x = static_cast<std::uint64_t>(static_cast<std::int64_t>(c.x()) + (1LL << 31));
-        const auto y = static_cast<std::uint64_t>(static_cast<std::int64_t>(c.y()) + (1LL << 31));
-        keyed.push_back({x << 32 | y, static_cast<std::uint32_t>(i)});
+    if (std::abs(normals[i].dot(up)) >= kWallGate) {
+      continue;
+    }
+    const Eigen::Vector3d point = to_local * positions[i];
+    const Eigen::Array2d c = (point.head<2>() / cell).array().floor();
+    if (c.abs().maxCoeff() < 1e9) {
+      const auto x = static_cast<std::uint64_t>(static_cast<std::int64_t>(c.x()) + (1LL << 31));
+      const auto y = static_cast<std::uint64_t>(static_cast<std::int64_t>(c.y()) + (1LL << 31));
+      const auto [place, is_new] = column_of_cell.try_emplace(x << 32 | y, columns.size());
+      if (is_new) {
+        columns.emplace_back();
       }
+      columns[place->second].add(point);
     }
   }
-  std::sort(keyed.begin(), keyed.end(), [](const Keyed& a, const Keyed& b) {
-    return a.key != b.key ? a.key < b.key : a.point < b.point;
-  });
-  return keyed;
+  return columns;
 }
 
-// Total least squares plane of the points [begin, end); false if they are no upright plane.
-bool fitColumn(const Vectors3d& positions, const Eigen::Matrix3d& to_local, const Keyed* begin,
-               const Keyed* end, Column& column) {
-  const auto n = static_cast<double>(end - begin);
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Keyed* k = begin; k != end; ++k) {
-    mean += positions[k->point];
-  }
-  mean /= n;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const Keyed* k = begin; k != end; ++k) {
-    const Eigen::Vector3d d = to_local * (positions[k->point] - mean);
-    covariance += d * d.transpose();
-  }
-  covariance /= n;
+// Total least squares plane of the points of a column; false if they are no upright plane.
+bool fitColumn(const ColumnMoments& moments, Column& column) {
+  const double n = moments.count;
+  const Eigen::Vector3d mean = moments.sum / n;
+  const Eigen::Matrix3d covariance = moments.products / n - mean * mean.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   const Eigen::Vector3d normal = solver.eigenvectors().col(0);
   const double across = std::max(solver.eigenvalues()[0], 0.0);
@@ -95,22 +104,12 @@ bool fitColumn(const Vectors3d& positions, const Eigen::Matrix3d& to_local, cons
 
 std::vector<Column> fitColumns(const Vectors3d& positions, const Vectors3d& normals,
                                const Eigen::Vector3d& up, double cell) {
-  const Eigen::Matrix<double, 3, 2> frame = tangentFrame(up);
-  Eigen::Matrix3d to_local;
-  to_local << frame.transpose(), up.transpose();
-  const std::vector<Keyed> keyed = columnsOfPoints(positions, normals, up, frame, cell);
   std::vector<Column> columns;
-  for (std::size_t begin = 0; begin < keyed.size();) {
-    std::size_t end = begin;
-    while (end < keyed.size() && keyed[end].key == keyed[begin].key) {
-      ++end;
-    }
+  for (const ColumnMoments& moments : momentsOfColumns(positions, normals, up, cell)) {
     Column column;
-    if (end - begin >= kFewestPoints &&
-        fitColumn(positions, to_local, &keyed[begin], &keyed[begin] + (end - begin), column)) {
+    if (moments.count >= kFewestPoints && fitColumn(moments, column)) {
       columns.push_back(column);
     }
-    begin = end;
   }
   if (columns.empty()) {
     return columns;
@@ -192,7 +191,7 @@ VerticalFit refineByPositions(const Vectors3d& positions, const Vectors3d& norma
     const Eigen::Matrix<double, 3, 2> frame = tangentFrame(fit.up);
     const Eigen::Vector2d turn = robustTurn(columns, frame, fit);
     fit.up = (fit.up + frame * turn).normalized();
-    if (turn.norm() < kSettled) {
+    if (turn.norm() < std::max(kSettled, kMinorTurn * fit.deviation)) {
       break;
     }
   }

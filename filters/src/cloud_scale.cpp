@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl/kdtree/kdtree_flann.h>
 #include <storey/filters/cloud_scale.h>
+#include <storey/filters/detail/neighbor_search.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -31,9 +31,8 @@ constexpr std::size_t kMinThinned = kMaxNeighbors * kPointsPerNeighbor;  // belo
 constexpr double kBoxQuantile = 0.01;
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
-using Tree = pcl::KdTreeFLANN<pcl::PointXYZ>;
 
-struct Neighborhood {
+struct Sample {
   double variance = 0.0;  // about its plane, free of bias
   double flatness = 0.0;  // l3 / (l1 + l2 + l3)
   double radius = 0.0;    // to the k-th neighbour
@@ -75,33 +74,27 @@ double varianceOfCore(std::vector<double>& deviations) {
   return deviation * deviation;
 }
 
-Neighborhood describe(const Cloud& cloud, const std::vector<std::uint32_t>& multiplicity,
-                      const pcl::Indices& neighbors, double radius) {
-  const Eigen::Vector3d origin =
-      cloud[static_cast<std::size_t>(neighbors[0])].getVector3fMap().cast<double>();
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-  Neighborhood result;
-  for (const pcl::index_t j : neighbors) {
-    const Eigen::Vector3d d =
-        cloud[static_cast<std::size_t>(j)].getVector3fMap().cast<double>() - origin;
-    sum += d;
-    products += d * d.transpose();
-    result.points += multiplicity[static_cast<std::size_t>(j)];
-  }
-  const auto k = static_cast<double>(neighbors.size());
-  const Eigen::Vector3d mean = sum / k;
-  const Eigen::Matrix3d covariance = products / k - mean * mean.transpose();
+Sample describe(const Neighborhood& found, const std::vector<std::uint32_t>& multiplicity) {
+  const auto k = static_cast<double>(found.count);
+  const Moments moments = found.moments();  // about the first
+  const Eigen::Vector3d origin(found.x[0], found.y[0], found.z[0]);
+  const Eigen::Vector3d mean = Eigen::Map<const Eigen::Vector3d>(moments.sum.data()) / k;
+  const auto& m = moments.products;
+  Eigen::Matrix3d covariance;
+  covariance << m[0], m[1], m[2], m[1], m[3], m[4], m[2], m[4], m[5];
+  covariance = covariance / k - mean * mean.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   const Eigen::Vector3d l = solver.eigenvalues().cwiseMax(0.0);
+  const double radius = std::sqrt(static_cast<double>(found.squaredRadius()));
+  Sample result;
   result.radius = radius;
   result.flatness = l.sum() > 0.0 ? l(0) / l.sum() : 0.0;
   const Eigen::Vector3d normal = solver.eigenvectors().col(0);
   std::vector<double> residuals;
-  for (const pcl::index_t j : neighbors) {
-    const Eigen::Vector3d d =
-        cloud[static_cast<std::size_t>(j)].getVector3fMap().cast<double>() - origin - mean;
+  for (std::size_t i = 0; i < found.count; ++i) {
+    const Eigen::Vector3d d = Eigen::Vector3d(found.x[i], found.y[i], found.z[i]) - origin - mean;
     residuals.push_back(std::abs(normal.dot(d)));
+    result.points += multiplicity[static_cast<std::size_t>(found.ids[i])];
   }
   const double variance = varianceOfCore(residuals) * k / (k - 3.0);
   result.variance = variance * (1.0 + 2.0 * variance / (radius * radius));
@@ -109,22 +102,19 @@ Neighborhood describe(const Cloud& cloud, const std::vector<std::uint32_t>& mult
 }
 
 struct Sampling {
-  std::vector<Neighborhood> neighborhoods;
+  std::vector<Sample> neighborhoods;
   std::size_t k = 0;
 };
 
-Sampling sampleNeighborhoods(const Tree& tree, const Cloud& cloud,
-                             const std::vector<std::uint32_t>& multiplicity, std::mt19937& random) {
-  const std::size_t n = cloud.size();
+Sampling sampleNeighborhoods(const NeighborSearch& search, const DistinctPositions& positions,
+                             std::mt19937& random) {
+  const std::size_t n = positions.cloud->size();
   Sampling result;
   result.k = std::min(n, std::clamp(n / kPointsPerNeighbor, kMinNeighbors, kMaxNeighbors));
-  pcl::Indices neighbors;
-  std::vector<float> squared_distances;
+  NeighborSearch::Workspace workspace;
   for (const std::size_t i : drawStratified(n, std::min(n, kSamples), random)) {
-    tree.nearestKSearch(cloud[i], static_cast<unsigned>(result.k), neighbors, squared_distances);
-    const auto farthest = std::max_element(squared_distances.begin(), squared_distances.end());
-    result.neighborhoods.push_back(
-        describe(cloud, multiplicity, neighbors, std::sqrt(static_cast<double>(*farthest))));
+    result.neighborhoods.push_back(describe(
+        search.nearest(static_cast<pcl::index_t>(i), result.k, workspace), positions.multiplicity));
   }
   return result;
 }
@@ -133,7 +123,7 @@ Sampling sampleNeighborhoods(const Tree& tree, const Cloud& cloud,
 // chi-square with k - 3 degrees of freedom: relative deviation sqrt(2 / (k - 3)).
 double commonVariance(const Sampling& sampling) {
   std::vector<double> variances;
-  for (const Neighborhood& s : sampling.neighborhoods) {
+  for (const Sample& s : sampling.neighborhoods) {
     variances.push_back(s.variance);
   }
   const double scatter = std::sqrt(2.0 / (static_cast<double>(sampling.k) - 3.0));
@@ -153,23 +143,22 @@ double commonVariance(const Sampling& sampling) {
   return sum / count;  // at least a quarter of the samples is below the start
 }
 
-double medianRadius(const std::vector<Neighborhood>& samples) {
+double medianRadius(const std::vector<Sample>& samples) {
   std::vector<double> radii;
-  for (const Neighborhood& s : samples) {
+  for (const Sample& s : samples) {
     radii.push_back(s.radius);
   }
   return quantile(radii, 0.5);
 }
 
-double surfaceDensity(std::vector<Neighborhood> samples, double variance) {
-  std::stable_sort(
-      samples.begin(), samples.end(),
-      [](const Neighborhood& a, const Neighborhood& b) { return a.flatness < b.flatness; });
+double surfaceDensity(std::vector<Sample> samples, double variance) {
+  std::stable_sort(samples.begin(), samples.end(),
+                   [](const Sample& a, const Sample& b) { return a.flatness < b.flatness; });
   const auto flat =
       static_cast<std::size_t>(std::ceil(kFlatShare * static_cast<double>(samples.size())));
   std::vector<double> densities;
   for (std::size_t i = 0; i < flat; ++i) {
-    const Neighborhood& s = samples[i];
+    const Sample& s = samples[i];
     // Of a ball about a noisy point, the plane meets a disc whose mean squared radius is
     // r^2 - 2 variance. The median of m / gamma(m) is m / (m - 1/3), and the query is no witness.
     const double disc = s.radius * s.radius - 2.0 * variance;
@@ -180,15 +169,12 @@ double surfaceDensity(std::vector<Neighborhood> samples, double variance) {
   return densities.empty() ? 0.0 : quantile(densities, 0.5);
 }
 
-double medianSpacing(const Tree& tree, const Cloud& cloud, std::mt19937& random) {
+double medianSpacing(const NeighborSearch& search, std::size_t n, std::mt19937& random) {
   std::vector<double> spacings;
-  pcl::Indices neighbors;
-  std::vector<float> squared_distances;
-  for (const std::size_t i :
-       drawStratified(cloud.size(), std::min(cloud.size(), kSamples), random)) {
-    tree.nearestKSearch(cloud[i], 2, neighbors, squared_distances);
-    spacings.push_back(std::sqrt(static_cast<double>(
-        *std::max_element(squared_distances.begin(), squared_distances.end()))));
+  NeighborSearch::Workspace workspace;
+  for (const std::size_t i : drawStratified(n, std::min(n, kSamples), random)) {
+    const Neighborhood two = search.nearest(static_cast<pcl::index_t>(i), 2, workspace);
+    spacings.push_back(std::sqrt(static_cast<double>(two.squaredRadius())));
   }
   return quantile(spacings, 0.5);
 }
@@ -229,17 +215,15 @@ CloudScale estimateCloudScale(const std::vector<Eigen::Vector3f>& input, std::ui
     return scale;
   }
   std::mt19937 random(seed);
-  auto tree = std::make_unique<Tree>(false);  // unsorted results
-  tree->setInputCloud(positions.cloud);
+  auto search = std::make_unique<NeighborSearch>(positions.cloud);
   scale.extent = robustExtent(*positions.cloud);
-  scale.spacing = medianSpacing(*tree, *positions.cloud, random);
+  scale.spacing = medianSpacing(*search, positions.cloud->size(), random);
   if (positions.cloud->size() < kMinPositions) {
     return scale;
   }
   const auto num_positions = static_cast<double>(positions.cloud->size());
   while (true) {
-    const Sampling sampling =
-        sampleNeighborhoods(*tree, *positions.cloud, positions.multiplicity, random);
+    const Sampling sampling = sampleNeighborhoods(*search, positions, random);
     const double variance = commonVariance(sampling);
     const double kept_share = static_cast<double>(positions.cloud->size()) / num_positions;
     scale.noise = std::sqrt(variance);
@@ -249,8 +233,7 @@ CloudScale estimateCloudScale(const std::vector<Eigen::Vector3f>& input, std::ui
       return scale;
     }
     thin(positions, random);
-    tree = std::make_unique<Tree>(false);
-    tree->setInputCloud(positions.cloud);
+    search = std::make_unique<NeighborSearch>(positions.cloud);
   }
 }
 

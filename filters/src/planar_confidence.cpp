@@ -1,68 +1,101 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl/kdtree/kdtree_flann.h>
+#include <storey/filters/detail/neighbor_search.h>
 #include <storey/filters/detail/planar_confidence.h>
 #include <storey/filters/detail/threads.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 
 namespace storey::detail {
 namespace {
 
-constexpr double kFalloff = 0.02;         // [Sui et al. 2016, Sec. 3.1]
-constexpr std::size_t kMinPositions = 4;  // three always lie on a plane
+constexpr double kFalloff = 0.02;  // [Sui et al. 2016, Sec. 3.1]
+constexpr double kMinPositions = 4.0;
+constexpr int kLaguerreRounds = 10;  // three or four are enough
+constexpr double kSettled = 1e-6;    // relative: the next step, a third power, would be rounding
 
-// Relative to the first neighbour: products of raw coordinates would lose the digits that count.
-Eigen::Vector3d eigenvaluesOf(const pcl::PointCloud<pcl::PointXYZ>& positions,
-                              const pcl::Indices& neighbors) {
-  const auto at = [&positions](pcl::index_t i) -> Eigen::Vector3d {
-    return positions[static_cast<std::size_t>(i)].getVector3fMap().cast<double>();
-  };
-  const Eigen::Vector3d origin = at(neighbors[0]);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-  for (const pcl::index_t j : neighbors) {
-    const Eigen::Vector3d d = at(j) - origin;
-    sum += d;
-    products += d * d.transpose();
+// The smallest root of the characteristic polynomial x^3 - x^2 + minors x - determinant of a
+// covariance with trace 1. All roots are real, so Laguerre's method goes up to it from 0 without
+// passing it, even where roots coincide.
+double smallestEigenvalue(double minors, double determinant) {
+  double x = 0.0;
+  for (int round = 0; round < kLaguerreRounds; ++round) {
+    const double p = ((x - 1.0) * x + minors) * x - determinant;
+    const double slope = (3.0 * x - 2.0) * x + minors;
+    const double curvature = 6.0 * x - 2.0;
+    const double root = std::sqrt(std::max(4.0 * slope * slope - 6.0 * p * curvature, 0.0));
+    if (!(p < 0.0) || !(slope + root > 0.0)) {
+      break;
+    }
+    const double step = -3.0 * p / (slope + root);
+    x += step;
+    if (step <= kSettled * x) {
+      break;
+    }
   }
-  const auto k = static_cast<double>(neighbors.size());
-  const Eigen::Matrix3d covariance = products / k - (sum / k) * (sum / k).transpose();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return x;
+}
+
+Moments momentsOf(const pcl::PointCloud<pcl::PointXYZ>& positions, const pcl::Indices& neighbors) {
+  if (neighbors.empty()) {
+    return {};
+  }
+  const pcl::PointXYZ& p = positions[static_cast<std::size_t>(neighbors[0])];
+  const std::size_t padded = (neighbors.size() + kLanes - 1) / kLanes * kLanes;
+  std::vector<float> x(padded, p.x), y(padded, p.y), z(padded, p.z);
+  for (std::size_t i = 0; i < neighbors.size(); ++i) {
+    const pcl::PointXYZ& q = positions[static_cast<std::size_t>(neighbors[i])];
+    x[i] = q.x;
+    y[i] = q.y;
+    z[i] = q.z;
+  }
+  return momentsAbout(x.data(), y.data(), z.data(), padded, p.data, neighbors.size());
 }
 
 }  // namespace
 
-double planarConfidence(const Eigen::Vector3d& eigenvalues) {
-  const Eigen::Vector3d l = eigenvalues.cwiseMax(0.0);  // rounding may leave -1e-20
-  if (l.minCoeff() > 0.0) {
-    return 1.0 - std::exp(-kFalloff * l.sum() / l.minCoeff());
+double planarConfidence(const Moments& moments) {
+  if (moments.count < kMinPositions) {
+    return 0.0;
   }
-  return l.maxCoeff() > 0.0 ? 1.0 : 0.0;
+  const double share = 1.0 / moments.count;
+  const auto& s = moments.sum;
+  const auto& p = moments.products;
+  double xx = p[0] - s[0] * s[0] * share;
+  double yy = p[3] - s[1] * s[1] * share;
+  double zz = p[5] - s[2] * s[2] * share;
+  const double trace = xx + yy + zz;
+  if (!(trace > 0.0)) {
+    return 0.0;
+  }
+  const double unit = 1.0 / trace;
+  xx *= unit;
+  yy *= unit;
+  zz *= unit;
+  const double xy = (p[1] - s[0] * s[1] * share) * unit;
+  const double xz = (p[2] - s[0] * s[2] * share) * unit;
+  const double yz = (p[4] - s[1] * s[2] * share) * unit;
+  const double minor = yy * zz - yz * yz;
+  const double minors = minor + xx * yy - xy * xy + xx * zz - xz * xz;
+  const double determinant = xx * minor - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+  const double least = smallestEigenvalue(minors, determinant);
+  return least > 0.0 ? 1.0 - std::exp(-kFalloff / least) : 1.0;
 }
 
-NeighborQuery makeNeighborQuery(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& positions) {
-  auto tree = std::make_shared<pcl::KdTreeFLANN<pcl::PointXYZ>>(false);  // order is of no use
-  if (!positions->empty()) {
-    tree->setInputCloud(positions);
-  }
-  return [tree, positions](pcl::index_t id, int k, pcl::Indices& neighbors) {
-    thread_local std::vector<float> squared_distances;
-    tree->nearestKSearch((*positions)[static_cast<std::size_t>(id)], static_cast<unsigned>(k),
-                         neighbors, squared_distances);
-  };
-}
-
-std::vector<double> planarConfidences(const pcl::PointCloud<pcl::PointXYZ>& positions,
+std::vector<double> planarConfidences(const pcl::PointCloud<pcl::PointXYZ>::ConstPtr& positions,
                                       const std::vector<char>& wanted, int k,
                                       const NeighborQuery& query, unsigned int threads) {
-  std::vector<double> confidences(positions.size(), 0.0);
-  const int k_found = static_cast<int>(std::min(positions.size(), static_cast<std::size_t>(k)));
-  const auto n = static_cast<std::ptrdiff_t>(positions.size());
+  std::vector<double> confidences(positions->size(), 0.0);
+  if (!query) {
+    NeighborSearch(positions).forEach(
+        static_cast<std::size_t>(k), wanted, threads, [&](const Neighborhood& found) {
+          confidences[static_cast<std::size_t>(found.id)] = planarConfidence(found.moments());
+        });
+    return confidences;
+  }
+  const int k_found = static_cast<int>(std::min(positions->size(), static_cast<std::size_t>(k)));
+  const auto n = static_cast<std::ptrdiff_t>(positions->size());
 #pragma omp parallel num_threads(threadsFor(threads))
   {
     pcl::Indices neighbors;
@@ -70,12 +103,9 @@ std::vector<double> planarConfidences(const pcl::PointCloud<pcl::PointXYZ>& posi
     for (std::ptrdiff_t i = 0; i < n; ++i) {
       if (wanted[static_cast<std::size_t>(i)]) {
         query(static_cast<pcl::index_t>(i), k_found, neighbors);
-        // Points with the same neighbours get the same bytes, whatever the search's order.
-        std::sort(neighbors.begin(), neighbors.end());
-        if (neighbors.size() >= kMinPositions) {
-          confidences[static_cast<std::size_t>(i)] =
-              planarConfidence(eigenvaluesOf(positions, neighbors));
-        }
+        std::sort(neighbors.begin(), neighbors.end());  // whatever the search's order
+        confidences[static_cast<std::size_t>(i)] =
+            planarConfidence(momentsOf(*positions, neighbors));
       }
     }
   }

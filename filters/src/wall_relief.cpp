@@ -4,15 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 namespace storey::detail {
 namespace {
 
 constexpr std::size_t kPlaces = 400;
 constexpr std::size_t kMinPoints = 50;
-constexpr std::size_t kMaxPoints = 2000;  // of one neighbourhood
-constexpr double kGate = 8.0;             // noise deviations: more is another wall
-constexpr double kNormalDot = 0.7;        // cosine of 45 degrees
+constexpr std::size_t kMaxPoints = 2000;       // of one neighbourhood
+constexpr std::size_t kMostSearched = 200000;  // points, of all places together
+constexpr int kCellsAcross = 64;
+constexpr double kGate = 8.0;       // noise deviations: more is another wall
+constexpr double kNormalDot = 0.7;  // cosine of 45 degrees
 constexpr int kRounds = 4;
 constexpr double kReliefRadius = 0.05;  // of the extent: about a wall
 constexpr double kReliefRatio = 1.4;    // of the noise
@@ -59,6 +62,72 @@ double scatterAbout(const std::vector<Eigen::Vector2d>& points, Eigen::Vector2d 
   return deviations.size() < kMinPoints ? -1.0 : kMadToDeviation * medianOf(deviations);
 }
 
+// Every step-th position, sorted by cells of some side, at least the radius of a search.
+class SampleCells {
+ public:
+  SampleCells(const std::vector<Eigen::Vector3f>& positions, std::size_t step, double side);
+
+  /// The samples of the 27 cells around a position, by cell.
+  void around(const Eigen::Vector3f& position, std::vector<std::uint32_t>& samples) const;
+
+ private:
+  Eigen::Array3i cellOf(const Eigen::Vector3f& position) const;
+  static std::size_t indexOf(const Eigen::Array3i& cell) {
+    return static_cast<std::size_t>((cell.z() * kCellsAcross + cell.y()) * kCellsAcross + cell.x());
+  }
+
+  Eigen::Array3d low_ = Eigen::Array3d::Zero();
+  double side_ = 1.0;
+  std::vector<std::uint32_t> begins_;  ///< of each cell in `samples_`
+  std::vector<std::uint32_t> samples_;
+};
+
+SampleCells::SampleCells(const std::vector<Eigen::Vector3f>& positions, std::size_t step,
+                         double side)
+    : side_(side) {
+  Eigen::Array3d mean = Eigen::Array3d::Zero();
+  double count = 0.0;
+  for (std::size_t i = 0; i < positions.size(); i += step) {
+    mean += positions[i].cast<double>().array();
+    count += 1.0;
+  }
+  low_ = mean / std::max(count, 1.0) - 0.5 * kCellsAcross * side;
+  begins_.assign(static_cast<std::size_t>(kCellsAcross * kCellsAcross * kCellsAcross) + 1, 0);
+  for (std::size_t i = 0; i < positions.size(); i += step) {
+    ++begins_[indexOf(cellOf(positions[i])) + 1];
+  }
+  for (std::size_t c = 1; c < begins_.size(); ++c) {
+    begins_[c] += begins_[c - 1];
+  }
+  samples_.resize(begins_.back());
+  std::vector<std::uint32_t> ends(begins_.begin(), begins_.end() - 1);
+  for (std::size_t i = 0; i < positions.size(); i += step) {
+    samples_[ends[indexOf(cellOf(positions[i]))]++] = static_cast<std::uint32_t>(i);
+  }
+}
+
+// What lies outside belongs to the outermost cells, so that neighbours stay neighbours.
+Eigen::Array3i SampleCells::cellOf(const Eigen::Vector3f& position) const {
+  return ((position.cast<double>().array() - low_) / side_)
+      .max(0.0)
+      .min(kCellsAcross - 1.0)
+      .cast<int>();
+}
+
+void SampleCells::around(const Eigen::Vector3f& position,
+                         std::vector<std::uint32_t>& samples) const {
+  samples.clear();
+  const Eigen::Array3i first = (cellOf(position) - 1).max(0);
+  const Eigen::Array3i last = (cellOf(position) + 1).min(kCellsAcross - 1);
+  for (int z = first.z(); z <= last.z(); ++z) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      const std::uint32_t begin = begins_[indexOf({first.x(), y, z})];
+      const std::uint32_t end = begins_[indexOf({last.x(), y, z}) + 1];
+      samples.insert(samples.end(), samples_.begin() + begin, samples_.begin() + end);
+    }
+  }
+}
+
 }  // namespace
 
 double estimateWallRelief(const std::vector<Eigen::Vector3f>& positions,
@@ -67,20 +136,30 @@ double estimateWallRelief(const std::vector<Eigen::Vector3f>& positions,
   std::vector<double> reliefs;
   const std::size_t n = positions.size();
   const std::size_t places = std::min(kPlaces, n);
+  const SampleCells cells(positions, std::max<std::size_t>(1, n / kMostSearched), radius);
+  std::vector<std::uint32_t> near;
   for (std::size_t k = 0; k < places; ++k) {
     const std::size_t i = k * n / places;
     const Eigen::Vector2f normal = normals[i].head<2>().normalized();
-    std::vector<Eigen::Vector2d> around;
-    const std::size_t step = std::max<std::size_t>(1, n / 200000);
-    for (std::size_t j = 0; j < n && around.size() < kMaxPoints; j += step) {
-      const Eigen::Vector3f r = positions[j] - positions[i];
-      if (std::abs(r.x()) > radius || std::abs(r.y()) > radius || r.squaredNorm() > radius * radius)
-        continue;
-      if (normals[j].head<2>().dot(normal) < kNormalDot) continue;
-      around.push_back(r.head<2>().cast<double>());
+    cells.around(positions[i], near);
+    near.erase(std::remove_if(near.begin(), near.end(),
+                              [&](std::uint32_t j) {
+                                const Eigen::Vector3f r = positions[j] - positions[i];
+                                return r.squaredNorm() > radius * radius ||
+                                       normals[j].head<2>().dot(normal) < kNormalDot;
+                              }),
+               near.end());
+    if (near.size() < kMinPoints) continue;
+    if (near.size() > kMaxPoints) {  // the first ones
+      std::nth_element(near.begin(), near.begin() + kMaxPoints, near.end());
+      near.resize(kMaxPoints);
     }
-    if (around.size() < kMinPoints) continue;
-    const double scatter = scatterAbout(around, normal.cast<double>(), kGate * noise);
+    std::sort(near.begin(), near.end());
+    std::vector<Eigen::Vector2d> points;
+    for (const std::uint32_t j : near) {
+      points.push_back((positions[j] - positions[i]).head<2>().cast<double>());
+    }
+    const double scatter = scatterAbout(points, normal.cast<double>(), kGate * noise);
     if (scatter >= 0.0) reliefs.push_back(scatter);
   }
   return reliefs.empty() ? noise : medianOf(reliefs);

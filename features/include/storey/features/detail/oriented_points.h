@@ -51,6 +51,9 @@ OrientedPoints gatherOrientedPoints(const pcl::PointCloud<PointT>& cloud,
   OrientedPoints result;
   Eigen::Vector3d low = Eigen::Vector3d::Zero();
   Eigen::Vector3d high = Eigen::Vector3d::Zero();
+  result.positions.reserve(indices.size());
+  result.normals.reserve(indices.size());
+  result.ids.reserve(indices.size());
   for (const pcl::index_t id : indices) {
     const auto i = static_cast<std::size_t>(id);
     const Eigen::Vector3d x(cloud[i].x, cloud[i].y, cloud[i].z);

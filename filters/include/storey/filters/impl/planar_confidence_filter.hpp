@@ -109,8 +109,7 @@ std::vector<double> PlanarConfidenceFilter<PointT>::confidencesOf(
     }
   }
   if (!search_ || distinct.cloud->size() != this->input_->size()) {
-    return detail::planarConfidences(*distinct.cloud, wanted, k_,
-                                     detail::makeNeighborQuery(distinct.cloud), threads_);
+    return detail::planarConfidences(distinct.cloud, wanted, k_, nullptr, threads_);
   }
   if (search_->getInputCloud() != this->input_) {
     search_->setInputCloud(this->input_);
@@ -127,7 +126,7 @@ std::vector<double> PlanarConfidenceFilter<PointT>::confidencesOf(
       j = distinct.id_of_input[static_cast<std::size_t>(j)];
     }
   };
-  return detail::planarConfidences(*distinct.cloud, wanted, k_, query, threads_);
+  return detail::planarConfidences(distinct.cloud, wanted, k_, query, threads_);
 }
 
 template <typename PointT>

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/search/kdtree.h>
 #include <pcl/search/search.h>
 #include <storey/filters/detail/distinct_positions.h>
+#include <storey/filters/detail/neighbor_search.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -33,7 +34,7 @@ class PositionSearch {
   using Tree = pcl::search::Search<PointT>;
 
   /// \param points indices into `cloud`, all with searchable positions
-  /// \param tree is given the sites as its input cloud; null: a k-d tree is made
+  /// \param tree is given the sites as its input cloud; null: a search of our own
   PositionSearch(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& points,
                  const typename Tree::Ptr& tree)
       : given_tree_(tree) {
@@ -58,7 +59,7 @@ class PositionSearch {
       given_sites_ = given_sites;
       given_tree_->setInputCloud(given_sites_);
     } else {
-      tree_.setInputCloud(sites_);
+      search_ = std::make_unique<NeighborSearch>(sites_);
     }
   }
 
@@ -73,7 +74,12 @@ class PositionSearch {
     if (given_tree_) {
       given_tree_->nearestKSearch((*given_sites_)[site], k, sites, squared);
     } else {
-      tree_.nearestKSearch((*sites_)[site], k, sites, squared);
+      thread_local NeighborSearch::Workspace workspace;
+      const Neighborhood found =
+          search_->nearest(static_cast<pcl::index_t>(site), static_cast<std::size_t>(k), workspace);
+      sites.assign(found.ids, found.ids + found.count);
+      squared.resize(found.count);
+      for (std::size_t i = 0; i < found.count; ++i) squared[i] = found.squaredDistance(i);
     }
   }
 
@@ -96,8 +102,7 @@ class PositionSearch {
  private:
   typename Tree::Ptr given_tree_;
   typename pcl::PointCloud<PointT>::ConstPtr given_sites_;
-  // of PointXYZ, which PCL has compiled: for a type of the user's it would need all of FLANN
-  pcl::search::KdTree<pcl::PointXYZ> tree_;
+  std::unique_ptr<NeighborSearch> search_;
   pcl::PointCloud<pcl::PointXYZ>::ConstPtr sites_;
   std::vector<std::size_t> site_of_point_;
 };
