@@ -2,10 +2,7 @@
 # cmake -DHELP2MAN=... -DPROGRAM=... -DPAGE=... -DVERSION=... -P manual_page.cmake
 execute_process(COMMAND ${PROGRAM} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
 # The first sentence below the usage says what the program is for.
-string(REGEX MATCH "\n\n([^\n].*)$" found "${help}")
-if(NOT found)
-  set(CMAKE_MATCH_1 "a program of storey")
-endif()
+string(REGEX MATCH "\n\n([^\n].*)$" below_usage "${help}")
 string(REGEX REPLACE "[ \n]+" " " text "${CMAKE_MATCH_1}")
 string(REGEX MATCH "^[^.:(]*" summary "${text}")
 string(SUBSTRING "${summary}" 0 1 first)

@@ -29,7 +29,8 @@ std::string headingOf(const std::string& program, const std::vector<std::string>
                       const std::string& description) {
   std::string text;
   for (const std::string& usage : usages) {
-    text += (text.empty() ? "usage: " : "       ") + program + " " + usage + "\n";
+    text +=
+        (text.empty() ? "Usage: " : "  or:  ") + program + " " + usage + "\n";  // as help2man wants
   }
   return text + "\n" + description + "\n";
 }

@@ -121,7 +121,7 @@ TEST(CommandLine, HelpNamesEveryOptionWithItsDefault) {
   EXPECT_FALSE(parsed.go_on);
   EXPECT_EQ(parsed.failure, "");
   for (const char* const text :
-       {"usage: prog INPUT", "\n       prog --list", "Does something.", "input", "--length",
+       {"Usage: prog INPUT", "\n  or:  prog --list", "Does something.", "input", "--length",
         "(=0.5)", "(=0.85)", "(=green)", "--help", "--version", "--threads", "X,Y,Z"}) {
     EXPECT_NE(parsed.printed.find(text), std::string::npos) << text << " in\n" << parsed.printed;
   }

@@ -159,7 +159,7 @@ TEST_F(StagePrograms, ExplainThemselves) {
   for (const std::string program : kPrograms) {
     EXPECT_EQ(run(*directory_, program + " --help").status, 0) << program;
     const std::string help = readAll(directory_->file("stdout"));
-    EXPECT_EQ(help.rfind("usage: " + program + " ", 0), 0U) << help;
+    EXPECT_EQ(help.rfind("Usage: " + program + " ", 0), 0U) << help;
     EXPECT_EQ(run(*directory_, program + " --version").status, 0) << program;
   }
 }
