@@ -19,12 +19,15 @@ constexpr double kTitleHeight = 40.0;
 constexpr double kFontSize = 12.0;
 constexpr double kCharacterWidth = 0.6 * kFontSize;  // of a sans-serif digit
 
-constexpr const char* kStyle =
-    "<style>.plans .floor{fill:#ece8de}"
-    ".plans .wall{stroke:#23272b;stroke-width:2;vector-effect:non-scaling-stroke}"
-    ".plans .hypothetical{stroke:#c0392b;stroke-dasharray:6 4}"
-    ".plans .length{font-size:10px;fill:#555;text-anchor:middle;dominant-baseline:middle}"
-    ".plans .bar{stroke:#23272b;stroke-width:3}</style>\n";
+// Strokes within a plan are scaled with it: not all programs know strokes that are not.
+std::string styleOf(double scale) {
+  const auto scaled = [&](double pixels) { return numberText(pixels / scale); };
+  return "<style>.plans .floor{fill:#ece8de}.plans .wall{stroke:#23272b;stroke-width:" +
+         scaled(2.0) + ";stroke-linecap:square}.plans .hypothetical{stroke:#c0392b;" +
+         "stroke-linecap:butt;stroke-dasharray:" + scaled(6.0) + " " + scaled(4.0) +
+         "}.plans .length{font-size:10px;fill:#555;text-anchor:middle}" +
+         ".plans .bar{stroke:#23272b;stroke-width:3}</style>\n";
+}
 
 Eigen::Vector2d toPlan(const Eigen::Isometry3d& frame, const Eigen::Vector2d& corner) {
   return (frame * Eigen::Vector3d(corner.x(), corner.y(), 0.0)).head<2>();
@@ -66,7 +69,7 @@ class Drawing {
             "\" height=\"" + height + "\" viewBox=\"0 0 " + width + " " + height +
             "\" font-family=\"sans-serif\" font-size=\"" + fixed(kFontSize, 0) + "\">\n" +
             "<title>Floorplans</title>\n<desc>relative to " + numberText(box_.min().x()) + " " +
-            numberText(box_.min().y()) + "</desc>\n" + kStyle;
+            numberText(box_.min().y()) + "</desc>\n" + styleOf(scale_);
     for (std::size_t k = 0; k < model_.storeys.size(); ++k) drawStorey(k);
     drawBar(bar_top);
     return text_ + "</svg>\n";
@@ -158,7 +161,7 @@ class Drawing {
       double angle = std::atan2(-along.y(), along.x()) * 180.0 / M_PI;  // y runs down
       if (angle > 90.0) angle -= 180.0;                                 // never upside down
       if (angle <= -90.0) angle += 180.0;
-      text_ += "<text class=\"length\" transform=\"translate(" + fixed(origin.x() + middle.x(), 1) +
+      text_ += "<text class=\"length\" dy=\"0.35em\" transform=\"translate(" + fixed(origin.x() + middle.x(), 1) +
                " " + fixed(origin.y() - middle.y(), 1) + ") rotate(" + fixed(angle, 1) + ")\">" +
                length + "</text>\n";
     }

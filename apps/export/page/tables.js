@@ -62,7 +62,7 @@
         : `${report.building.wall_lines.length} walls, ${report.building.cells} cells, ` +
           `${report.building.layers} layers`,
     model: () => `${report.model.walls} walls, ${report.model.roofs} roofs, ` +
-        `${report.model.grounds} grounds, ${report.model.ceilings} ceilings`,
+        `${report.model.grounds} ground, ${report.model.ceilings} ceilings`,
   };
 
   function stages() {
