@@ -4,6 +4,7 @@
 #include <chrono>
 #include <ctime>
 
+#include "stages/classes.h"
 #include "stages/planar.h"
 #include "stages/stage_cloud_io.h"
 
@@ -33,6 +34,8 @@ class Pipeline {
     stage("planar",
           [&] { return measureConfidence(cloud, options_.kept_share, options_.threads); });
     observers_.cloud("02_confidence", cloud);
+    stage("classes", [&] { return classify(cloud); });
+    observers_.cloud("02_classes", cloud);
     stage("directions", [&] { return findDirections(cloud, options_.threads); });
     observers_.cloud("03_directions", cloud);
     if (options_.method == Method::Building) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruct/report.h"
 
+#include <storey/segmentation/detail/point_classes.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "reconstruct/agreement.h"
 #include "reconstruct/residuals.h"
 
 namespace storey::reconstruct {
@@ -72,6 +74,34 @@ Json describeParameters(const Options& o) {
           {"encoding", o.model.encoding == FloorplanGrammar::Encoding::Walls ? "walls" : "turns"},
           {"linking", o.slices.linking == Linking::Optimal ? "optimal" : "greedy"},
           {"minimization", o.model.expansion ? "alpha-expansion" : "exact"}};
+}
+
+// How many points are of each class, and how planar they are on average.
+Json describeClasses(const stages::StageCloud& cloud) {
+  constexpr const char* kNames[detail::kNumPointClasses] = {"wall",   "level",      "ground",
+                                                            "sloped", "non_planar", "apart"};
+  std::size_t count[detail::kNumPointClasses] = {};
+  double confidence[detail::kNumPointClasses] = {};
+  const std::vector<int>& classes = cloud.groups(stages::Class);
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    const auto c = static_cast<std::size_t>(classes[i]);
+    ++count[c];
+    confidence[c] += static_cast<double>(cloud.confidences[i]);
+  }
+  Json described;
+  for (std::size_t c = 0; c < detail::kNumPointClasses; ++c) {
+    const double mean = confidence[c] / static_cast<double>(count[c]);
+    described[kNames[c]] = {{"points", count[c]}, {"mean_confidence", known(mean)}};
+  }
+  return described;
+}
+
+Json describeAgreement(const Result& r) {
+  const Agreement agreement = agreementWith(r);
+  return {{"upright_points", agreement.upright},
+          {"explained_share", agreement.explained},
+          {"upright_points_of_building", agreement.building},
+          {"explained_share_of_building", agreement.explained_of_building}};
 }
 
 Json describeDirections(const Result& r) {
@@ -273,6 +303,8 @@ std::string describe(const Options& options, const Result& r) {
                      {"extent", r.attitude.scale.extent}};
   report["planar"] = {{"T_k", r.cloud.state.planar_threshold},
                       {"points", planarPoints(r.cloud).size()}};
+  report["classes"] = describeClasses(r.cloud);
+  report["agreement"] = describeAgreement(r);
   report["directions"] = describeDirections(r);
   report["slices"] = describeSlices(r);  // none where the floorplans are of the whole building
   report["building"] = describeBuilding(r);

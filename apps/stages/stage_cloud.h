@@ -30,8 +30,9 @@ struct StageState {
 };
 
 /// Groups that points can be in. In this order, the last one that a cloud has is its newest.
-enum Group : std::size_t { Slice, Direction, Region, Wall };
-constexpr std::array<const char*, 4> kGroupNames = {"slice", "direction", "region", "wall"};
+enum Group : std::size_t { Class, Slice, Direction, Region, Wall };
+constexpr std::array<const char*, 5> kGroupNames = {"class", "slice", "direction", "region",
+                                                    "wall"};
 
 /// A cloud on its way through the stages: upright (+z is up), with outward normals.
 struct StageCloud {
@@ -39,8 +40,9 @@ struct StageCloud {
   Cloud::Ptr points = pcl::make_shared<Cloud>();
   bool has_normals = false;
   StageState state;
-  std::vector<float> confidences;             ///< planar confidence of each point, or none
-  std::array<std::vector<int>, 4> groups_of;  ///< by `Group`: of each point, -1 none; or none
+  std::vector<float> confidences;  ///< planar confidence of each point, or none
+  /// By `Group`: of each point, -1 none; or none.
+  std::array<std::vector<int>, kGroupNames.size()> groups_of;
 
   const std::vector<int>& groups(Group group) const { return groups_of[group]; }
   std::vector<int>& groups(Group group) { return groups_of[group]; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stages/stage_cloud_io.h"
 
+#include <storey/segmentation/detail/point_classes.h>
+
 #include <cmath>
 #include <cstring>
 
@@ -96,6 +98,7 @@ void takePoints(const io::RawCloud& raw, const io::InputFile& file, Cloud& point
 
 /// How many groups there are, as far as the state tells.
 std::size_t limitOf(std::size_t group, const StageCloud& cloud) {
+  if (group == Class) return storey::detail::kNumPointClasses;
   if (group == Slice) return cloud.state.slices.size();
   if (group == Direction) return cloud.state.directions.size();
   return cloud.points->size();

@@ -10,9 +10,9 @@ namespace storey::stages {
 
 /// Writes a cloud for the next stage, and for `pcl_viewer`: binary PCD or PLY by its name, with the
 /// fields x, y, z, normal_x, normal_y, normal_z, curvature; `intensity`, the planar confidence;
-/// `slice`, `direction`, `region` and `wall`, numbered from 1, 0 = none; and `label`, which repeats
-/// the newest of these under the name that PCL colours by. Fields without content are left out. The
-/// state is in comments of the header, "storey KEY VALUES".
+/// `class`, `slice`, `direction`, `region` and `wall`, numbered from 1, 0 = none; and `label`,
+/// which repeats the newest of these under the name that PCL colours by. Fields without content are
+/// left out. The state is in comments of the header, "storey KEY VALUES".
 /// \throws io::Failure (CannotCreate, IoError)
 void writeStageCloud(const std::string& path, const StageCloud& cloud);
 

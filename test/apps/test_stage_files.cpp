@@ -45,6 +45,7 @@ StageCloud makeCloud() {
     if (i % 10 == 0) p.normal_x = std::numeric_limits<float>::quiet_NaN();  // no normal found
     cloud.points->push_back(p);
     cloud.confidences.push_back(static_cast<float>(i) / 199.0f);
+    cloud.groups(Class).push_back(i % 7 - 1);
     cloud.groups(Slice).push_back(i - 1);
     cloud.groups(Direction).push_back(i % 4 - 1);
     cloud.groups(Region).push_back(i / 2 - 1);
@@ -92,9 +93,9 @@ TEST(StageFiles, CloudsComeBackBitByBit) {
 TEST(StageFiles, GroupsThatDoNotExistAreRefused) {
   const TemporaryDirectory directory;
   const std::string path = directory.file("a.pcd");
-  for (const Group group : {Slice, Direction}) {
+  for (const Group group : {Class, Slice, Direction}) {
     StageCloud cloud = makeCloud();
-    cloud.groups(group)[3] = group == Slice ? 1200 : 3;  // one too many
+    cloud.groups(group)[3] = group == Class ? 6 : group == Slice ? 1200 : 3;  // one too many
     writeStageCloud(path, cloud);
     try {
       readStageCloud(path);

@@ -87,7 +87,8 @@ TEST_P(Chains, GiveTheModelsOfStoreyReconstructByteForByte) {
   runWell(directory, "storey_layers -q " + cloud("02_confidence") +
                          " building.geojson building.ply building_files/model.obj "
                          "building_fitted.geojson");
-  through("storey_dominant_directions", "02_confidence", "03_directions");
+  through("storey_classes", "02_confidence", "02_classes");
+  through("storey_dominant_directions", "02_classes", "03_directions");
   through("storey_slices", "03_directions", "04_slices");
   through("storey_normals", "04_slices", "05_normals");
   through("storey_labels", "05_normals", "06_labels");
@@ -114,8 +115,9 @@ TEST_P(Chains, GiveTheModelsOfStoreyReconstructByteForByte) {
     same(method + "_fitted.geojson", "floorplans.geojson");
     same(method + ".geojson", "09_floorplans.geojson");
     if (extension != "pcd") continue;
-    for (const char* const stage : {"01_upright", "02_confidence", "03_directions", "04_slices",
-                                    "05_normals", "06_labels", "07_regions", "08_refined"}) {
+    for (const char* const stage :
+         {"01_upright", "02_confidence", "02_classes", "03_directions", "04_slices", "05_normals",
+          "06_labels", "07_regions", "08_refined"}) {
       const bool left = std::filesystem::exists(directory.file(method + "/" + cloud(stage)));
       EXPECT_EQ(left, method == "paper" || std::string(stage) < "04") << stage;
       if (left) same(cloud(stage), cloud(stage));
@@ -143,17 +145,12 @@ class StagePrograms : public ::testing::Test {
 
 TemporaryDirectory* StagePrograms::directory_ = nullptr;
 
-constexpr const char* kPrograms[] = {"storey_vertical",
-                                     "storey_planar_confidence",
-                                     "storey_dominant_directions",
-                                     "storey_slices",
-                                     "storey_normals",
-                                     "storey_labels",
-                                     "storey_regions",
-                                     "storey_positions",
-                                     "storey_walls",
-                                     "storey_floorplans",
-                                     "storey_layers"};
+constexpr const char* kPrograms[] = {"storey_vertical",   "storey_planar_confidence",
+                                     "storey_classes",    "storey_dominant_directions",
+                                     "storey_slices",     "storey_normals",
+                                     "storey_labels",     "storey_regions",
+                                     "storey_positions",  "storey_walls",
+                                     "storey_floorplans", "storey_layers"};
 
 TEST_F(StagePrograms, ExplainThemselves) {
   for (const std::string program : kPrograms) {

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <storey/segmentation/detail/point_classes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace storey::detail {
+namespace {
+
+const WallScale kScale{0.05, 100.0};
+constexpr double kLeastWall = 1.0;
+
+// A face of points 0.1 apart over a x b from a corner.
+void addFace(std::vector<OrientedPoint>& points, const Eigen::Vector3d& corner,
+             const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector3d normal = a.cross(b).normalized();
+  for (double s = 0.05; s < a.norm(); s += 0.1) {
+    for (double t = 0.05; t < b.norm(); t += 0.1) {
+      points.push_back({corner + s * a.normalized() + t * b.normalized(), normal});
+    }
+  }
+}
+
+std::vector<PointClass> classesOf(const std::vector<OrientedPoint>& points) {
+  return classifyPoints(points, std::vector<char>(points.size(), 1), kScale, kLeastWall);
+}
+
+bool allAre(const std::vector<PointClass>& classes, std::size_t from, std::size_t to,
+            PointClass expected) {
+  return std::all_of(classes.begin() + static_cast<std::ptrdiff_t>(from),
+                     classes.begin() + static_cast<std::ptrdiff_t>(to),
+                     [&](PointClass c) { return c == expected; });
+}
+
+TEST(PointClasses, WallsThatLeanAreSloped) {
+  std::vector<OrientedPoint> points;
+  addFace(points, {0, 0, 0}, {8, 0, 0}, {0, 0, 8});
+  const std::size_t upright = points.size();
+  addFace(points, {0, 0, 8}, {8, 0, 0}, {0, 1.6, 7.8});  // 11.6 degrees
+  const std::vector<PointClass> classes = classesOf(points);
+  for (std::size_t i = 0; i < upright; ++i) {  // the cubes at the edge of both are mixed
+    if (points[i].position.z() > 7.0) continue;
+    EXPECT_EQ(classes[i], PointClass::Wall);
+  }
+  // All but the mixed cubes, and those at the rim with too few points to tell.
+  EXPECT_GT(std::count(classes.begin(), classes.end(), PointClass::Sloped),
+            static_cast<std::ptrdiff_t>(0.8 * static_cast<double>(points.size() - upright)));
+}
+
+TEST(PointClasses, SmallGroupsBehindAGapAreApart) {
+  std::vector<OrientedPoint> points;
+  addFace(points, {0, 0, 0}, {8, 0, 0}, {0, 0, 8});
+  const std::size_t wall = points.size();
+  addFace(points, {2, -4, 0}, {1, 0, 0}, {0, 0, 1});  // 1 of 64
+  const std::size_t car = points.size();
+  addFace(points, {0, 9, 0}, {4, 0, 0}, {0, 0, 4});  // a quarter
+  const std::vector<PointClass> classes = classesOf(points);
+  EXPECT_TRUE(allAre(classes, 0, wall, PointClass::Wall));
+  EXPECT_TRUE(allAre(classes, wall, car, PointClass::Apart));
+  EXPECT_TRUE(allAre(classes, car, points.size(), PointClass::Wall));
+}
+
+TEST(PointClasses, WhatIsNotPlanarStaysSo) {
+  std::vector<OrientedPoint> points;
+  addFace(points, {0, 0, 0}, {2, 0, 0}, {0, 0, 2});
+  const auto classes =
+      classifyPoints(points, std::vector<char>(points.size(), 0), kScale, kLeastWall);
+  EXPECT_TRUE(allAre(classes, 0, points.size(), PointClass::NonPlanar));
+}
+
+}  // namespace
+}  // namespace storey::detail
