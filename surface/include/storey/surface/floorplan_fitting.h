@@ -48,15 +48,16 @@ struct FitOptions {
   double noise = 0.0;            ///< standard deviation of the points about their walls, > 0
   double max_shift = 0.0;        ///< a height moves by no more than this in one fit, > 0
   bool share_directions = true;  ///< walls whose directions agree within 3.5 deviations share one
+  bool find_panes = true;        ///< windows set back are a mode of their own, where they are found
 };
 
 /// Fits every wall to all the points of all the layers that use it (the decoded shape of a type is
 /// fitted again: doc/method.md, deviation 5), robustly by Tukey's weights, and moves the corners to
-/// the intersections of the fitted lines. A ring whose edges would turn around keeps its corners
-/// and loses its wall ids. Points whose normals are nearer to the vertical than to the horizontal
-/// are of roofs and floors and take no part. \param layers with wall ids, bottom to top with
-/// disjoint ranges; changed in place \return the lines by wall id; none, after a PCL_ERROR, for a
-/// bad option or normals that are not parallel to the positions
+/// the intersections of the fitted lines. Short edges that would turn around go; a ring with longer
+/// ones that would keeps its corners and loses its wall ids. Points whose normals are nearer to the
+/// vertical than to the horizontal are of roofs and floors and take no part. \param layers with
+/// wall ids, bottom to top with disjoint ranges; changed in place \return the lines by wall id;
+/// none, after a PCL_ERROR, for a bad option or normals that are not parallel to the positions
 std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPoints& points,
                                 const FitOptions& options);
 

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <storey/surface/detail/wall_corners.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace storey;
+using Corners = std::vector<Eigen::Vector2d>;
+
+const Corners kSquare = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}, {0.0, 10.0}};
+// The square, its corner at (10, 10) cut by the line x + y = 20 - cut, which is edge 2.
+Corners chamfered(double cut) {
+  return {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0 - cut}, {10.0 - cut, 10.0}, {0.0, 10.0}};
+}
+
+std::vector<FloorplanLayer> layerOf(const Corners& corners) {
+  FloorplanLayer layer;
+  layer.z_max = 3.0;
+  layer.plan.components.resize(1);
+  FloorplanRing& ring = layer.plan.components.front().outer;
+  ring.vertices = corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) ring.edges.push_back({static_cast<int>(i)});
+  return {layer};
+}
+
+const FloorplanRing& ringOf(const std::vector<FloorplanLayer>& layers) {
+  return layers.front().plan.components.front().outer;
+}
+
+// The lines of the edges, each moved outwards.
+std::map<int, WallFit> fitsOf(const Corners& corners, const std::vector<double>& shifts) {
+  std::map<int, WallFit> fits;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d along = corners[(i + 1) % corners.size()] - corners[i];
+    WallFit& fit = fits[static_cast<int>(i)];
+    fit.normal = Eigen::Vector2d(along.y(), -along.x()).normalized();
+    fit.offset = fit.normal.dot(corners[i]) + shifts[i];
+  }
+  return fits;
+}
+
+std::vector<int> idsOf(const FloorplanRing& ring) {
+  std::vector<int> ids;
+  for (const FloorplanEdge& edge : ring.edges) ids.push_back(edge.wall);
+  return ids;
+}
+
+void expectCorners(const FloorplanRing& ring, const Corners& expected) {
+  ASSERT_EQ(ring.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_LT((ring.vertices[i] - expected[i]).norm(), 1e-12) << i;
+  }
+}
+
+TEST(MoveCorners, TakesThemToTheIntersectionsOfTheLines) {
+  std::vector<FloorplanLayer> layers = layerOf(kSquare);
+  detail::moveCorners(layers, fitsOf(kSquare, {1.0, 2.0, 3.0, 4.0}));
+  expectCorners(ringOf(layers), {{-4.0, -1.0}, {12.0, -1.0}, {12.0, 13.0}, {-4.0, 13.0}});
+  EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{0, 1, 2, 3}));
+}
+
+TEST(MoveCorners, KeepsAShortEdgeThatStaysTheRightWayRound) {
+  // The line x + y = 20 - 0.5 moved to x + y = 20 - 0.1.
+  const Corners ring = chamfered(0.5);
+  std::vector<FloorplanLayer> layers = layerOf(ring);
+  detail::moveCorners(layers, fitsOf(ring, {0.0, 0.0, 0.4 * M_SQRT1_2, 0.0, 0.0}));
+  expectCorners(ringOf(layers), chamfered(0.1));
+}
+
+TEST(MoveCorners, DropsAShortEdgeThatWouldTurnAround) {
+  // The line of the cut moved past the corner of the square.
+  const Corners ring = chamfered(0.5);
+  std::vector<FloorplanLayer> layers = layerOf(ring);
+  detail::moveCorners(layers, fitsOf(ring, {0.0, 0.0, 0.6 * M_SQRT1_2, 0.0, 0.0}));
+  expectCorners(ringOf(layers), kSquare);
+  EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{0, 1, 3, 4}));
+}
+
+TEST(MoveCorners, DropsTheLastEdgeOfARingAsAnyOther) {
+  const Corners ring = {{9.5, 10.0}, {0.0, 10.0}, {0.0, 0.0}, {10.0, 0.0}, {10.0, 9.5}};
+  std::vector<FloorplanLayer> layers = layerOf(ring);
+  detail::moveCorners(layers, fitsOf(ring, {0.0, 0.0, 0.0, 0.0, 0.6 * M_SQRT1_2}));
+  expectCorners(ringOf(layers), {{10.0, 10.0}, {0.0, 10.0}, {0.0, 0.0}, {10.0, 0.0}});
+  EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{0, 1, 2, 3}));
+}
+
+TEST(MoveCorners, LeavesRingsAloneWhoseLongEdgesWouldTurnAround) {
+  // A side of the square moved past the opposite one.
+  std::vector<FloorplanLayer> layers = layerOf(kSquare);
+  detail::moveCorners(layers, fitsOf(kSquare, {-11.0, 0.0, 0.0, 0.0}));
+  expectCorners(ringOf(layers), kSquare);
+  EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{-1, -1, -1, -1}));
+}
+
+TEST(MoveCorners, LeavesRingsAloneWithoutACorner) {
+  // The neighbours of a step are parallel: without it they meet nowhere.
+  const Corners step = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}, {5.0, 10.0}, {5.0, 9.9}, {0.0, 9.9}};
+  std::vector<FloorplanLayer> layers = layerOf(step);
+  detail::moveCorners(layers, fitsOf(step, {0.0, 0.0, -0.2, 0.0, 0.0, 0.0}));
+  expectCorners(ringOf(layers), step);
+  EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>(6, -1)));
+}
+
+}  // namespace
