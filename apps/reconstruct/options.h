@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <storey/segmentation/detail/method_steps.h>
+
 #include <string>
 #include <vector>
 
 #include "export/formats.h"
-
 #include "stages/options.h"
 
 namespace storey::reconstruct {
@@ -28,6 +29,7 @@ struct Options {
   unsigned int threads = 0;
   bool intermediate = false;
   bool quiet = false;
+  detail::MethodSteps steps;  ///< for experiments only: no option of the command line
 };
 
 /// Reads the command line. \return false if help or the version was asked for and printed

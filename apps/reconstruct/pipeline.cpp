@@ -41,7 +41,7 @@ class Pipeline {
     if (options_.method == Method::Building) {
       stage("floorplans", [&] {
         return extractBlocks(cloud, options_.block_cost, options_.simplicity, result_.blocks,
-                             result_.building);
+                             result_.building, options_.steps);
       });
     } else {
       extractSlices();
@@ -49,7 +49,8 @@ class Pipeline {
     stage("model", [&] {
       const bool blocks = options_.method == Method::Building;
       return buildModel(cloud, blocks ? result_.blocks : result_.slices.layers, options_.method,
-                        options_.simplicity.max_types, options_.model, result_.model);
+                        options_.simplicity.max_types, options_.model, result_.model,
+                        options_.steps);
     });
     result_.local_to_input = modelToInput(cloud, result_.model);
     return std::move(result_);

@@ -9,7 +9,8 @@ namespace storey::stages {
 
 std::string extractBlocks(StageCloud& cloud, double block_cost, const SimplicityOptions& simplicity,
                           std::vector<FloorplanLayer>& blocks,
-                          storey::detail::BuildingFloorplans& found) {
+                          storey::detail::BuildingFloorplans& found,
+                          const storey::detail::MethodSteps& steps) {
   ensureScale(cloud);
   BuildingFloorplanExtraction<Point> extraction;
   extraction.setInputCloud(cloud.points);
@@ -20,6 +21,7 @@ std::string extractBlocks(StageCloud& cloud, double block_cost, const Simplicity
   extraction.setMaxFaces(static_cast<std::size_t>(simplicity.max_faces));
   extraction.setMaxTypes(static_cast<std::size_t>(simplicity.max_types));
   extraction.setWholeTradeOff(simplicity.trade_off);
+  extraction.setSteps(steps);
   if (!extraction.extract(blocks)) {
     refuse(cloud, "the walls enclose no building",
            "is half of it missing, or the vertical wrong (--up)?");

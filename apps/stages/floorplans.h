@@ -21,10 +21,12 @@ struct SimplicityOptions {
 
 /// The floorplans of blocks from the walls of the whole building.
 /// \param block_cost wall area that one more block must explain; 0: derived
+/// \param steps for experiments: those of the method that are left out
 /// \return a line that says what was found \throws io::Failure (BadInput) if there is no building
 std::string extractBlocks(StageCloud& cloud, double block_cost, const SimplicityOptions& simplicity,
                           std::vector<FloorplanLayer>& blocks,
-                          storey::detail::BuildingFloorplans& found);
+                          storey::detail::BuildingFloorplans& found,
+                          const storey::detail::MethodSteps& steps = {});
 
 /// The walls of a cloud: the wall of each point, and their lines. \param min_area 0: derived
 /// \return a line that says what was found \throws io::Failure (BadInput) if there are none

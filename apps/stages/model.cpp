@@ -8,7 +8,8 @@
 namespace storey::stages {
 
 std::string buildModel(StageCloud& cloud, const std::vector<FloorplanLayer>& layers, Method method,
-                       int max_types, const ModelOptions& options, LayerwiseModel& model) {
+                       int max_types, const ModelOptions& options, LayerwiseModel& model,
+                       const storey::detail::MethodSteps& steps) {
   ensureScale(cloud);
   LayerwiseMRFReconstruction<Point> reconstruction;
   reconstruction.setInputCloud(cloud.points);
@@ -24,6 +25,7 @@ std::string buildModel(StageCloud& cloud, const std::vector<FloorplanLayer>& lay
   reconstruction.setEncoding(options.encoding);
   reconstruction.setExactMinimization(!options.expansion);
   reconstruction.setGrid(options.grid);
+  reconstruction.setSteps(steps);
   pcl::PolygonMesh mesh;
   reconstruction.reconstruct(mesh);
   model = reconstruction.getResult();

@@ -4,6 +4,7 @@
 #include <storey/segmentation/detail/outline_faces.h>
 #include <storey/segmentation/detail/outline_pruning.h>
 #include <storey/segmentation/detail/transition_blocks.h>
+#include <storey/segmentation/detail/wall_hypotheses.h>
 #include <storey/segmentation/detail/wall_lines.h>
 #include <storey/segmentation/detail/weak_parts.h>
 
@@ -23,6 +24,7 @@ constexpr double kMinExplained = 0.5;  // of the area of the walls found
 constexpr double kLeastGap = 0.1;
 constexpr double kShortEdge = 3.0;         // noise deviations
 constexpr double kCornerTolerance = 0.05;  // noise deviations
+constexpr double kPlanarNeighbors = 30.0;  // of a point: PlanarConfidenceFilter leaves out corners
 
 struct PlanBox {
   Eigen::Vector2d low;
@@ -92,6 +94,7 @@ class Labeling {
       : points_(points),
         level_points_(level_points),
         scale_(scale),
+        steps_(options.steps),
         face_cost_(kFaceCost * options.min_wall_area),
         box_(boxAround(points)),
         result_(result) {
@@ -104,6 +107,7 @@ class Labeling {
     arrange(planLinesOf(result_.walls, result_.hypotheses, scale_.noise));
     result_.levels = findLevels(evidence_);
     label();
+    if (!steps_.second_pass) return;
     const std::vector<PlanLine> used =
         distinct(refitUsedLines(result_.plan, evidence_, result_.blocks, points_, scale_.noise),
                  scale_.noise, box_);
@@ -131,16 +135,22 @@ class Labeling {
  private:
   void arrange(const std::vector<PlanLine>& lines) {
     result_.plan = arrangeLines(lines, box_.low, box_.high, kCornerTolerance * scale_.noise);
-    evidence_ = gatherEvidence(result_.plan, points_, scale_);
+    evidence_ = gatherEvidence(result_.plan, points_, scale_, steps_.saturated_tiles);
+  }
+
+  void prune() {
+    if (steps_.pruning) pruneOutlines(result_.plan, energy_.gap, face_cost_, result_.blocks);
   }
 
   void label() {
     while (true) {
       result_.blocks = labelCells(result_.plan, evidence_, result_.levels, level_points_, energy_);
       // Divided once they are simple: what noise adds to an outline is no reason to do without it.
-      pruneOutlines(result_.plan, energy_.gap, face_cost_, result_.blocks);
-      divideTransitions(result_.plan, evidence_, energy_.gap, face_cost_, result_.blocks);
-      pruneOutlines(result_.plan, energy_.gap, face_cost_, result_.blocks);
+      prune();
+      if (steps_.transitions) {
+        divideTransitions(result_.plan, evidence_, energy_.gap, face_cost_, result_.blocks);
+      }
+      prune();
       result_.gap = energy_.gap;
       if (explainedArea(result_.plan, result_.blocks) > kMinExplained * wall_area_) return;
       if (energy_.gap < kLeastGap) return;
@@ -151,6 +161,7 @@ class Labeling {
   const std::vector<WallPoint>& points_;
   const std::vector<LevelPoint>& level_points_;
   const WallScale& scale_;
+  MethodSteps steps_;
   CellEnergyOptions energy_;
   double face_cost_;
   double wall_area_ = 0.0;
@@ -170,15 +181,18 @@ BuildingFloorplans extractBuildingFloorplans(const std::vector<WallPoint>& point
   if (sample.empty()) return result;
   WallScale sample_scale = scale;
   sample_scale.density *= static_cast<double>(sample.size()) / static_cast<double>(points.size());
-  result.walls = findWallLines(sample, sample_scale, {options.min_wall_area});
+  result.walls = findWallLines(sample, sample_scale, {options.min_wall_area, options.steps});
   if (result.walls.size() < 2) return result;
-  result.hypotheses = hypothesiseLines(result.walls, sample_scale);
+  if (options.steps.hypotheses) {
+    const double corner_gap = std::sqrt(kPlanarNeighbors / (M_PI * scale.density));
+    result.hypotheses = hypothesiseLines(result.walls, sample, sample_scale, corner_gap);
+  }
 
   Labeling labeling(points, level_points, scale, options, result);
   labeling.run();
   labeling.simplify(options.limits);
   labeling.takeOutlines(options.min_area);
-  dropWeakParts(result.plan, options.keep_components, result.layers);
+  if (options.steps.weak_parts) dropWeakParts(result.plan, options.keep_components, result.layers);
   return result;
 }
 

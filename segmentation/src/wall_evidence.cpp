@@ -84,27 +84,70 @@ std::vector<double> densityByHeight(const EdgeTiles& tiles, double bin) {
   return densities;
 }
 
+// Bins up, or down, that a tile takes in so that it holds enough points at this density.
+std::size_t reachOf(double density, double width, double bin) {
+  const double more = kTilePoints / (density * width * bin) - 1.0;
+  return std::min(kDensityReach, static_cast<std::size_t>(std::max(0.0, std::round(more))));
+}
+
+// A tile that holds few points where the wall is thin is as much seen as the tiles below it and
+// those above it, whichever is less: so the ends of a wall stay sharp.
 void measureSeen(const EdgeTiles& tiles, WallEvidence& evidence) {
   const std::size_t bins = evidence.num_bins;
   evidence.seen.assign(evidence.ahead.size(), 0.0f);
   const std::vector<double> densities = densityByHeight(tiles, evidence.bin);
+  std::vector<double> below(bins + 1, 0.0);  // running sums of a tile's column
   for (std::size_t e = 0; e < tiles.width.size(); ++e) {
     const double area = tiles.width[e] * evidence.bin;
     for (std::size_t t = tiles.first[e]; t < tiles.first[e + 1]; ++t) {
       for (std::size_t b = 0; b < bins; ++b) {
-        const double d = tiles.difference[t * bins + b];
-        if (d == 0.0) continue;
-        const double share = std::clamp(d / (kFullDensity * densities[b] * area), -1.0, 1.0);
+        below[b + 1] = below[b] + tiles.difference[t * bins + b];
+      }
+      const auto shareOf = [&](std::size_t from, std::size_t to, double density) {
+        const double full = kFullDensity * density * area * static_cast<double>(to - from);
+        return std::clamp((below[to] - below[from]) / full, -1.0, 1.0);
+      };
+      for (std::size_t b = 0; b < bins; ++b) {
+        const double density = densities[b];
+        const std::size_t reach = reachOf(density, tiles.width[e], evidence.bin);
+        const double own = shareOf(b, b + 1, density);
+        const double down = shareOf(b > reach ? b - reach : 0, b + 1, density);
+        const double up = shareOf(b, std::min(bins, b + reach + 1), density);
+        const double around = std::abs(down) < std::abs(up) ? down : up;
+        const double share = down * up > 0.0 && std::abs(around) > std::abs(own) ? around : own;
         evidence.seen[e * bins + b] += static_cast<float>(share * area);
       }
     }
   }
 }
 
+// The nearest line that the point confirms; the number of lines if there is none.
+std::size_t lineOf(const WallPoint& p, const std::vector<PlanLine>& lines, double gate) {
+  std::size_t line = lines.size();
+  double nearest = gate;
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    const double d = std::abs(lines[l].across(p.position));
+    if (d >= gate || std::abs(lines[l].normal.dot(p.normal)) <= kMinAgreement) continue;
+    const bool found = !lines[l].hypothetical;
+    const bool found_before = line < lines.size() && !lines[line].hypothetical;
+    if (found == found_before ? d >= nearest : found_before) continue;
+    nearest = d;
+    line = l;
+  }
+  return line;
+}
+
+void sumSeen(double density, WallEvidence& evidence) {
+  evidence.seen.resize(evidence.ahead.size());
+  for (std::size_t i = 0; i < evidence.seen.size(); ++i) {
+    evidence.seen[i] = (evidence.ahead[i] - evidence.behind[i]) / static_cast<float>(density);
+  }
+}
+
 }  // namespace
 
 WallEvidence gatherEvidence(const LineArrangement& plan, const std::vector<WallPoint>& points,
-                            const WallScale& scale) {
+                            const WallScale& scale, bool saturated) {
   WallEvidence evidence;
   if (points.empty() || plan.edges.empty()) return evidence;
   double low = std::numeric_limits<double>::infinity();
@@ -127,15 +170,7 @@ WallEvidence gatherEvidence(const LineArrangement& plan, const std::vector<WallP
   for (std::size_t l = 0; l < plan.lines.size(); ++l) first_edge[l + 1] += first_edge[l];
 
   for (const WallPoint& p : points) {
-    double nearest = kGate * scale.noise;
-    std::size_t line = plan.lines.size();
-    for (std::size_t l = 0; l < plan.lines.size(); ++l) {
-      const double d = std::abs(plan.lines[l].across(p.position));
-      if (d < nearest && std::abs(plan.lines[l].normal.dot(p.normal)) > kMinAgreement) {
-        nearest = d;
-        line = l;
-      }
-    }
+    const std::size_t line = lineOf(p, plan.lines, kGate * scale.noise);
     if (line == plan.lines.size()) continue;
     const double s = plan.lines[line].tangent().dot(p.position);
     const auto begin = plan.edges.begin() + static_cast<std::ptrdiff_t>(first_edge[line]);
@@ -151,7 +186,11 @@ WallEvidence gatherEvidence(const LineArrangement& plan, const std::vector<WallP
     tiles.difference[tiles.tileOf(e, s - edge->s_min) * evidence.num_bins + bin] +=
         agrees ? 1.0f : -1.0f;
   }
-  measureSeen(tiles, evidence);
+  if (saturated) {
+    measureSeen(tiles, evidence);
+  } else {
+    sumSeen(scale.density, evidence);
+  }
   return evidence;
 }
 

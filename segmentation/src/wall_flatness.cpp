@@ -16,6 +16,8 @@ constexpr double kFlat = 0.6;            // noise deviations that a part of a wa
 constexpr double kDeviations = 3.0;      // of a mean: what its noise explains
 constexpr double kMaxOffShare = 0.15;    // of the points of a flat stretch
 constexpr std::size_t kBins = 24;        // along the wall
+constexpr double kSetback = 1.2;         // noise deviations between storeys; panes make half of it
+constexpr std::size_t kLevels = 48;      // of height
 
 // Sums for the line d(s) of least squares.
 struct Moments {
@@ -100,7 +102,77 @@ bool leans(const Moments& run, double length, double noise) {
   return slope > kLeanDeviations * noise / std::sqrt(spread) && slope * length > kLean * noise;
 }
 
+// Points at some heights: how many, and the sum of their places across the line.
+struct Heights {
+  double n = 0.0, d = 0.0;
+
+  void add(const Heights& other) { n += other.n, d += other.d; }
+  double mean() const { return d / n; }
+};
+
+// Whether two walls, not one: the means differ by more than panes and noise explain.
+bool isSetBack(const Heights& below, const Heights& above, double noise) {
+  if (below.n < 1.0 || above.n < 1.0) return false;
+  const double deviation = std::sqrt(1.0 / below.n + 1.0 / above.n);
+  return std::abs(below.mean() - above.mean()) > noise * (kSetback + kDeviations * deviation);
+}
+
+// The range of levels, of those from `first` to `last`, left when the part with fewer points is
+// taken away at the clearest setback; the same range if there is none.
+std::pair<std::size_t, std::size_t> withoutSetback(const std::array<Heights, kLevels>& levels,
+                                                   std::size_t first, std::size_t last,
+                                                   double noise) {
+  Heights all;
+  for (std::size_t l = first; l < last; ++l) all.add(levels[l]);
+  Heights below;
+  double most = 0.0;
+  std::pair<std::size_t, std::size_t> kept{first, last};
+  for (std::size_t l = first; l + 1 < last; ++l) {
+    below.add(levels[l]);
+    const Heights above{all.n - below.n, all.d - below.d};
+    if (!isSetBack(below, above, noise)) continue;
+    const double step = below.mean() - above.mean();
+    const double gain = below.n * above.n / all.n * step * step;  // of the sum of squares
+    if (gain <= most) continue;
+    most = gain;
+    kept = below.n >= above.n ? std::make_pair(first, l + 1) : std::make_pair(l + 1, last);
+  }
+  return kept;
+}
+
 }  // namespace
+
+std::vector<int> atMainHeights(const std::vector<WallPoint>& points,
+                               const std::vector<int>& support, const WallScale& scale,
+                               const WallLine& line) {
+  if (support.empty()) return {};
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const int i : support) {
+    low = std::min(low, points[static_cast<std::size_t>(i)].z);
+    high = std::max(high, points[static_cast<std::size_t>(i)].z);
+  }
+  const double step = std::max((high - low) / kLevels, std::numeric_limits<double>::min());
+  const auto levelOf = [&](int i) {
+    const double place = (points[static_cast<std::size_t>(i)].z - low) / step;
+    return std::min(static_cast<std::size_t>(place), kLevels - 1);
+  };
+  std::array<Heights, kLevels> levels;
+  for (const int i : support) {
+    levels[levelOf(i)].add({1.0, line.across(points[static_cast<std::size_t>(i)].position)});
+  }
+  std::pair<std::size_t, std::size_t> range{0, kLevels};
+  for (auto less = range;
+       (less = withoutSetback(levels, range.first, range.second, scale.noise)) != range;) {
+    range = less;
+  }
+  std::vector<int> kept;
+  for (const int i : support) {
+    const std::size_t level = levelOf(i);
+    if (level >= range.first && level < range.second) kept.push_back(i);
+  }
+  return kept;
+}
 
 std::vector<std::pair<double, double>> runsAlong(const std::vector<WallPoint>& points,
                                                  const std::vector<int>& support,

@@ -1,63 +1,156 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <storey/segmentation/detail/building_floorplans.h>
-#include <storey/segmentation/detail/wall_support.h>
+#include <storey/segmentation/detail/wall_ends.h>
+#include <storey/segmentation/detail/wall_hypotheses.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace storey::detail {
 namespace {
 
 constexpr double kSameDirection = 0.07;  // rad, 4 degrees: as good a guess as any between
 constexpr double kMinCrossing = 0.26;    // rad, 15 degrees: flatter lines close nothing
-constexpr double kMinRun = 15.0;         // noise deviations
 constexpr std::size_t kMaxHypotheses = 30;
+
+double sineBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return std::abs(a.x() * b.y() - a.y() * b.x());
+}
+
+bool crosses(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return sineBetween(a, b) > std::sin(kMinCrossing);
+}
 
 // Directions (modulo 180 degrees) of the walls, most support first.
 std::vector<Eigen::Vector2d> directionsOf(const std::vector<WallLine>& walls) {
   std::vector<Eigen::Vector2d> normals;
   for (const WallLine& wall : walls) {
     const bool known = std::any_of(normals.begin(), normals.end(), [&](const Eigen::Vector2d& n) {
-      return std::abs(n.x() * wall.normal.y() - n.y() * wall.normal.x()) < kSameDirection;
+      return sineBetween(n, wall.normal) < kSameDirection;
     });
     if (!known) normals.push_back(wall.normal);
   }
   return normals;
 }
 
-}  // namespace
+struct Hypothesis {
+  PlanLine line;
+  double height;  // over which walls end there, of both
+};
 
-std::vector<PlanLine> hypothesiseLines(const std::vector<WallLine>& walls, const WallScale& scale) {
-  const double reach = std::max(6.0 * scale.noise, 3.0 / std::sqrt(scale.density));
-  const std::vector<Eigen::Vector2d> directions = directionsOf(walls);
-  std::vector<PlanLine> lines;
-  const auto passes = [&](const auto& line, const Eigen::Vector2d& p) {
-    return std::abs(line.normal.dot(p) - line.offset) < reach;
-  };
-  for (const WallLine& wall : walls) {
-    for (const auto& [from, to] : wall.runs) {
-      if (to - from < kMinRun * scale.noise) continue;
-      for (const double s : {from, to}) {
-        const Eigen::Vector2d end = wall.offset * wall.normal + s * wall.tangent();
-        const auto closes = [&](const auto& other) {
-          const double sine =
-              std::abs(other.normal.x() * wall.normal.y() - other.normal.y() * wall.normal.x());
-          return sine > std::sin(kMinCrossing) && passes(other, end);
-        };
-        if (std::any_of(walls.begin(), walls.end(), closes) ||
-            std::any_of(lines.begin(), lines.end(), closes)) {
-          continue;
-        }
-        for (const Eigen::Vector2d& normal : directions) {
-          const double sine = std::abs(normal.x() * wall.normal.y() - normal.y() * wall.normal.x());
-          if (sine <= std::sin(kMinCrossing)) continue;
-          lines.push_back({normal, normal.dot(end)});
-          if (lines.size() == kMaxHypotheses) return lines;
+class Hypotheses {
+ public:
+  Hypotheses(const std::vector<WallLine>& walls, const std::vector<WallEnd>& ends, double noise,
+             double corner_gap)
+      : walls_(walls),
+        noise_(noise),
+        reach_(kEndReach * noise + corner_gap),
+        directions_(directionsOf(walls)) {
+    for (const WallEnd& end : ends) {
+      if (!isMet(end)) open_.push_back(end);
+    }
+    std::stable_sort(open_.begin(), open_.end(),
+                     [](const WallEnd& a, const WallEnd& b) { return a.height > b.height; });
+  }
+
+  std::vector<PlanLine> make() {
+    addAll(betweenEnds(true));
+    addAll(betweenEnds(false));
+    addAll(throughEnds());
+    return lines_;
+  }
+
+ private:
+  static bool passes(const Eigen::Vector2d& normal, double offset, const WallEnd& end,
+                     double reach) {
+    return crosses(normal, end.normal) && std::abs(normal.dot(end.place) - offset) < reach;
+  }
+
+  // By a wall that was seen there, itself short of their corner; lines of walls elsewhere pass
+  // anywhere.
+  bool isMet(const WallEnd& end) const {
+    const double margin = 2.0 * reach_;
+    return std::any_of(walls_.begin(), walls_.end(), [&](const WallLine& wall) {
+      const double s = wall.along(end.place);
+      return passes(wall.normal, wall.offset, end, reach_) && s > wall.s_min - margin &&
+             s < wall.s_max + margin && wall.z_min < end.z_max && wall.z_max > end.z_min;
+    });
+  }
+
+  bool isClosed(const WallEnd& end) const {
+    return std::any_of(lines_.begin(), lines_.end(), [&](const PlanLine& line) {
+      return passes(line.normal, line.offset, end, kEndReach * noise_);
+    });
+  }
+
+  // A wall that was not seen joins two that end on it, in one of the known directions or, if there
+  // is none, in its own.
+  std::vector<Hypothesis> betweenEnds(bool known) const {
+    std::vector<Hypothesis> found;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      if (isClosed(open_[i])) continue;
+      for (std::size_t j = i + 1; j < open_.size(); ++j) {
+        const WallEnd& a = open_[i];
+        const WallEnd& b = open_[j];
+        const double common = std::min(a.z_max, b.z_max) - std::max(a.z_min, b.z_min);
+        const Eigen::Vector2d between = b.place - a.place;
+        if (isClosed(b) || common < kMinEndHeight * noise_) continue;
+        if (between.norm() < kMinEndedRun * noise_) continue;
+        const Eigen::Vector2d own = Eigen::Vector2d(between.y(), -between.x()).normalized();
+        for (const Eigen::Vector2d& normal : known ? directions_ : std::vector{own}) {
+          if (!crosses(normal, a.normal) || !crosses(normal, b.normal)) continue;
+          if (std::abs(normal.dot(between)) > kEndReach * noise_) continue;
+          found.push_back(
+              {{normal, 0.5 * normal.dot(a.place + b.place), true}, std::min(a.height, b.height)});
         }
       }
     }
+    return found;
   }
-  return lines;
+
+  std::vector<Hypothesis> throughEnds() const {
+    std::vector<Hypothesis> found;
+    for (const WallEnd& end : open_) {
+      if (isClosed(end)) continue;
+      for (const Eigen::Vector2d& normal : directions_) {
+        if (!crosses(normal, end.normal)) continue;
+        found.push_back({{normal, normal.dot(end.place), true}, end.height});
+      }
+    }
+    return found;
+  }
+
+  void addAll(std::vector<Hypothesis> found) {
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Hypothesis& a, const Hypothesis& b) { return a.height > b.height; });
+    std::vector<PlanLine> added;
+    for (const Hypothesis& h : found) {
+      if (lines_.size() + added.size() >= kMaxHypotheses || added.size() >= kMaxHypotheses / 3)
+        break;
+      const bool known = std::any_of(added.begin(), added.end(), [&](const PlanLine& line) {
+        return line.normal == h.line.normal &&
+               std::abs(line.offset - h.line.offset) < kEndReach * noise_;
+      });
+      if (!known) added.push_back(h.line);
+    }
+    lines_.insert(lines_.end(), added.begin(), added.end());
+  }
+
+  const std::vector<WallLine>& walls_;
+  double noise_;
+  double reach_;  // of the ends at a wall that was seen
+  std::vector<Eigen::Vector2d> directions_;
+  std::vector<WallEnd> open_;
+  std::vector<PlanLine> lines_;
+};
+
+}  // namespace
+
+std::vector<PlanLine> hypothesiseLines(const std::vector<WallLine>& walls,
+                                       const std::vector<WallPoint>& points, const WallScale& scale,
+                                       double corner_gap) {
+  if (walls.empty() || points.empty()) return {};
+  return Hypotheses(walls, findWallEnds(walls, points, scale), scale.noise, corner_gap).make();
 }
 
 }  // namespace storey::detail

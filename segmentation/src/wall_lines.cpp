@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/wall_density.h>
 #include <storey/segmentation/detail/wall_lines.h>
 #include <storey/segmentation/detail/wall_support.h>
 
@@ -17,6 +18,9 @@ constexpr int kFreeWindow = 3;               // bins
 constexpr double kLockedBin = 0.75;          // noise deviations
 constexpr int kLockedWindow = 5;             // bins
 constexpr double kMinVotes = 0.3;            // of the points that the least support would have
+constexpr double kThin = 0.5;                // of the density of all: where its cells are too small
+constexpr double kThinnest = 1.0 / 16.0;     // thinner heights show clutter alone
+constexpr double kThinMiddle = 0.7;          // of an octave of densities
 constexpr int kMaxFailures = 40;             // peaks without support in a row
 constexpr int kMaxLines = 400;               // cells grow with their square
 constexpr double kSameAngle = 0.1 * M_PI / 180.0;  // rad, least gap between directions
@@ -141,6 +145,7 @@ void extractGreedily(const std::vector<WallPoint>& points, const WallScale& scal
   }
   SupportOptions support_options;
   support_options.fit_direction = free_direction;
+  support_options.steps = options.steps;
   const double least_votes = std::max(10.0, kMinVotes * options.min_area * scale.density);
   for (int failures = 0; failures < kMaxFailures && static_cast<int>(lines.size()) < kMaxLines;) {
     const VoteTable::Peak peak = table.strongest();
@@ -159,6 +164,30 @@ void extractGreedily(const std::vector<WallPoint>& points, const WallScale& scal
       table.vote(points[static_cast<std::size_t>(i)], -1);
     }
     lines.push_back({std::move(line), std::move(support)});
+  }
+}
+
+// Walls at heights with much fewer points than the rest, octave by octave of their density.
+void extractThinParts(const std::vector<WallPoint>& points, const WallScale& scale,
+                      const WallLineOptions& options, const std::vector<double>& locked,
+                      const std::vector<double>& all_around, std::vector<char>& free,
+                      std::vector<FoundLine>& lines) {
+  const HeightDensity density(points, scale);
+  const double least = kThinnest * scale.density;
+  for (double most = kThin * scale.density; most > std::max(least, density.least()); most *= 0.5) {
+    WallScale thin = scale;
+    thin.density = kThinMiddle * most;
+    std::vector<char> free_there = free;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double there = density.at(points[i].z);
+      if (there > most || there < least) free_there[i] = 0;
+    }
+    const std::vector<char> before = free_there;
+    if (!locked.empty()) extractGreedily(points, thin, options, false, locked, free_there, lines);
+    extractGreedily(points, thin, options, true, all_around, free_there, lines);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (before[i] != free_there[i]) free[i] = 0;
+    }
   }
 }
 
@@ -247,14 +276,14 @@ bool explains(const WallLine& line, const WallPoint& p, double noise) {
 
 // Whether stronger lines explain nearly all of the support: at corners, where points of two walls
 // mix, the greedy search leaves some that a line of their own fits.
-bool isLeftover(const FoundLine& weak, const std::vector<FoundLine>& strong,
+bool isLeftover(const std::vector<int>& support, const std::vector<WallLine>& strong,
                 const std::vector<WallPoint>& points, double noise) {
-  const auto explained = std::count_if(weak.support.begin(), weak.support.end(), [&](const int i) {
-    return std::any_of(strong.begin(), strong.end(), [&](const FoundLine& other) {
-      return explains(other.line, points[static_cast<std::size_t>(i)], noise);
+  const auto explained = std::count_if(support.begin(), support.end(), [&](const int i) {
+    return std::any_of(strong.begin(), strong.end(), [&](const WallLine& other) {
+      return explains(other, points[static_cast<std::size_t>(i)], noise);
     });
   });
-  return static_cast<double>(explained) > kLeftover * static_cast<double>(weak.support.size());
+  return static_cast<double>(explained) > kLeftover * static_cast<double>(support.size());
 }
 
 }  // namespace
@@ -284,9 +313,11 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
   extractGreedily(points, scale, options, true, all_around, free, free_lines);
 
   std::vector<double> oriented;
-  for (const double angle : directionsOf(free_lines)) {
-    oriented.push_back(angle);
-    oriented.push_back(angle + M_PI);
+  if (options.steps.locked_directions) {
+    for (const double angle : directionsOf(free_lines)) {
+      oriented.push_back(angle);
+      oriented.push_back(angle + M_PI);
+    }
   }
   std::fill(free.begin(), free.end(), 1);
   std::vector<FoundLine> lines;
@@ -294,21 +325,29 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
     extractGreedily(points, scale, options, false, oriented, free, lines);
   }
   extractGreedily(points, scale, options, true, all_around, free, lines);
+  if (options.steps.thin_heights)
+    extractThinParts(points, scale, options, oriented, all_around, free, lines);
 
   std::stable_sort(lines.begin(), lines.end(), [](const FoundLine& a, const FoundLine& b) {
     return a.line.support > b.line.support;
   });
   std::vector<FoundLine> distinct;
   for (FoundLine& found : lines) {
-    const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const FoundLine& strong) {
+    const auto known = std::find_if(distinct.begin(), distinct.end(), [&](const FoundLine& strong) {
       return duplicates(found, strong, points, scale);
     });
-    if (!known && !isLeftover(found, distinct, points, scale.noise)) {
+    if (known == distinct.end()) {
       distinct.push_back(std::move(found));
+    } else {
+      known->line.z_min = std::min(known->line.z_min, found.line.z_min);
+      known->line.z_max = std::max(known->line.z_max, found.line.z_max);
     }
   }
   std::vector<WallLine> walls;
-  for (FoundLine& found : distinct) walls.push_back(std::move(found.line));
+  for (const FoundLine& found : distinct) {
+    if (!options.steps.leftovers || !isLeftover(found.support, walls, points, scale.noise))
+      walls.push_back(found.line);
+  }
   return walls;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -12,6 +13,8 @@ namespace storey::detail {
 namespace {
 
 constexpr double kGates[] = {6.0, 5.0, 4.5, 4.0};  // noise deviations, one a round
+constexpr double kSettled = 5.0;                   // gates below: the line is nearly right
+constexpr double kUnsettled = 1.5;                 // times the reach, before that
 constexpr double kMinOccupancy = 0.3;              // of the expected points of a cell
 constexpr int kMinFullNeighbors = 3;               // of eight
 constexpr double kTilePoints = 50.0;
@@ -134,10 +137,17 @@ double densestMedian(std::vector<Tile> tiles, double width) {
   return center;
 }
 
+// How far the median of some points of one wall may be off: that of a median is 1.25 times the
+// deviation of a mean.
+double medianReach(double points, double noise) {
+  return noise * (kTileSpread + 3.0 * 1.25 / std::sqrt(points));
+}
+
 // Two parallel walls a few deviations apart, at different places or heights, are told apart by the
-// medians of tiles: keeps the points of the tiles whose medians agree with most others.
+// medians of tiles, and so are panes: keeps the points of the tiles whose medians agree with most
+// others. A line that is not settled yet is crossed by its wall, so that more has to be kept.
 std::vector<int> inMainTiles(const std::vector<WallPoint>& points, const std::vector<int>& support,
-                             const WallScale& scale, const WallLine& line) {
+                             const WallScale& scale, const WallLine& line, bool settled) {
   if (static_cast<double>(support.size()) < kMinTiles * kTilePoints) return support;
   const CellGrid grid(points, support, line, std::sqrt(kTilePoints / scale.density));
   std::vector<std::vector<double>> residuals(grid.size());
@@ -145,24 +155,25 @@ std::vector<int> inMainTiles(const std::vector<WallPoint>& points, const std::ve
     const WallPoint& p = points[static_cast<std::size_t>(i)];
     residuals[grid.at(p)].push_back(line.across(p.position));
   }
-  std::vector<double> medians(grid.size(), std::numeric_limits<double>::quiet_NaN());
   std::vector<Tile> tiles;
+  std::vector<std::size_t> tile_of(grid.size(), SIZE_MAX);
   for (std::size_t t = 0; t < residuals.size(); ++t) {
     std::vector<double>& r = residuals[t];
     if (r.size() < kMinInTile) continue;
     std::nth_element(r.begin(), r.begin() + static_cast<std::ptrdiff_t>(r.size() / 2), r.end());
-    medians[t] = r[r.size() / 2];
-    tiles.push_back({medians[t], r.size()});
+    tile_of[t] = tiles.size();
+    tiles.push_back({r[r.size() / 2], r.size()});
   }
   if (tiles.empty()) return support;
-  // The deviation of a median is 1.25 times that of a mean.
-  const double reach = scale.noise * (kTileSpread + 3.0 * 1.25 / std::sqrt(kTilePoints));
+  const double reach = medianReach(kTilePoints, scale.noise);
   const double center = densestMedian(tiles, 2.0 * reach);
   std::vector<int> kept;
   for (const int i : support) {
-    if (std::abs(medians[grid.at(points[static_cast<std::size_t>(i)])] - center) <= 1.5 * reach) {
-      kept.push_back(i);
-    }
+    const std::size_t t = tile_of[grid.at(points[static_cast<std::size_t>(i)])];
+    if (t == SIZE_MAX) continue;
+    const double wide =
+        settled ? medianReach(static_cast<double>(tiles[t].size), scale.noise) : kUnsettled * reach;
+    if (std::abs(tiles[t].median - center) <= wide) kept.push_back(i);
   }
   return kept;
 }
@@ -274,9 +285,13 @@ std::vector<int> fitToSupport(const std::vector<WallPoint>& points,
   for (const double gate : kGates) {
     cut = gate * scale.noise;
     const std::vector<int> near = withinGate(points, pool, line, cut);
-    support = inMainTiles(points, inFullCells(points, near, scale, line), scale, line);
+    support = inFullCells(points, near, scale, line);
+    if (options.steps.setbacks) support = atMainHeights(points, support, scale, line);
+    if (options.steps.main_tiles)
+      support = inMainTiles(points, support, scale, line, gate < kSettled);
     if (support.empty()) return {};
     fitLine(points, support, cut, free, line);
+    if (!options.steps.flatness) continue;
     std::vector<int> flat = flatPart(points, support, scale, free, line);
     if (flat.empty()) return {};
     if (flat.size() == support.size()) continue;
@@ -284,7 +299,7 @@ std::vector<int> fitToSupport(const std::vector<WallPoint>& points,
     if (free) pool = support;  // what was cut off must not turn the line again
     fitLine(points, support, cut, free, line);
   }
-  if (!free) {
+  if (!free && options.steps.flatness) {
     // A locked direction may be that of another wall, whose line would lean over this one; or the
     // line meets another wall further on.
     std::vector<int> flat = flatStretch(points, support, scale, line);
@@ -294,7 +309,7 @@ std::vector<int> fitToSupport(const std::vector<WallPoint>& points,
     support = std::move(flat);
     fitLine(points, support, cut, false, line);
   }
-  if (!isSurface(points, support, candidates, scale, line)) return {};
+  if (options.steps.surface_test && !isSurface(points, support, candidates, scale, line)) return {};
   describeSupport(points, support, scale, line);
   return support;
 }

@@ -44,14 +44,16 @@ void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, Layer
   if (layers.empty()) return;
   FitOptions fit;
   fit.noise = options.noise;
+  fit.share_directions = options.steps.shared_directions;
+  fit.find_panes = options.steps.panes;
   fit.max_shift = kHeightSearchInSlices * options.slice_thickness;
   fitWalls(layers, points, fit);
   fitHeights(layers, points, fit);
-  result.upright = fitUpright(layers, points, options.noise);
+  if (options.steps.upright) result.upright = fitUpright(layers, points, options.noise);
   setUpright(result.upright, points);
   result.walls = fitWalls(layers, points, fit);  // now each point in the layer that it is of
   fit.noise = noiseOfWalls(result.walls, options.noise);
-  fitUnseenWalls(layers, points, fit.noise, result.walls);
+  if (options.steps.unseen_walls) fitUnseenWalls(layers, points, fit.noise, result.walls);
   fit.max_shift = 0.5 * options.slice_thickness;
   result.levels = fitHeights(layers, points, fit);
   result.model = extrudeFloorplans(layers, options.grid);

@@ -234,7 +234,8 @@ std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPo
   for (int round = 0; round < kRounds; ++round) {
     Walls walls = wallsOf(layers);
     collectPoints(layers, points, options.noise, walls);
-    if (round > 0) findPanes(options.noise, walls);  // about lines that are nearly right
+    if (options.find_panes && round > 0)
+      findPanes(options.noise, walls);  // about lines that are nearly right
     for (auto& [id, wall] : walls) sumMoments(options.noise, wall);
     fits = solve(walls, options.noise);
     if (options.share_directions) shareDirections(walls, fits);

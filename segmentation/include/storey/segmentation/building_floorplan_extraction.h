@@ -70,6 +70,9 @@ class BuildingFloorplanExtraction : public pcl::PCLBase<PointT> {
   void setWholeTradeOff(bool whole) { limits_.whole_front = whole; }
   bool getWholeTradeOff() const { return limits_.whole_front; }
 
+  /// Steps to do without, for experiments; default: none.
+  void setSteps(const detail::MethodSteps& steps) { steps_ = steps; }
+
   /// \param blocks bottom to top, each with its outline
   /// \return false, after a PCL_ERROR, for no input or a bad parameter; false without one if the
   /// points show no building
@@ -86,6 +89,7 @@ class BuildingFloorplanExtraction : public pcl::PCLBase<PointT> {
   double min_wall_area_ = 0.0;
   double block_cost_ = 0.0;
   detail::SimplicityLimits limits_;
+  detail::MethodSteps steps_;
   detail::BuildingFloorplans result_;
 };
 

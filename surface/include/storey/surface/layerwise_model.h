@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <storey/segmentation/detail/method_steps.h>
 #include <storey/surface/dominant_floorplans.h>
 #include <storey/surface/floorplan_fitting.h>
 #include <storey/surface/model_check.h>
@@ -16,6 +17,7 @@ struct LayerwiseModelOptions {
   double noise = 0.0;            ///< standard deviation of the points about their walls, > 0
   double slice_thickness = 0.0;  ///< > 0; heights are sought within 1.5 slices of a boundary
   double grid = 0.0;             ///< see extrudeFloorplans
+  detail::MethodSteps steps;     ///< of the fits, for experiments
 };
 
 struct LayerwiseModel {

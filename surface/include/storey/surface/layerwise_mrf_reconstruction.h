@@ -75,6 +75,9 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
   void setGrid(double grid) { grid_ = grid; }
   double getGrid() const { return grid_; }
 
+  /// Steps of the fits to do without, for experiments; default: none.
+  void setSteps(const detail::MethodSteps& steps) { steps_ = steps; }
+
   void reconstruct(pcl::PolygonMesh& output) override;
   void reconstruct(pcl::PointCloud<PointT>& points, std::vector<pcl::Vertices>& polygons) override;
 
@@ -99,6 +102,7 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
   DominantFloorplanOptions options_;
   double noise_ = 0.0;
   double grid_ = 0.0;
+  detail::MethodSteps steps_;
   LayerwiseModel result_;
 };
 

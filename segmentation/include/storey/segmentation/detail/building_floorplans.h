@@ -2,6 +2,7 @@
 #pragma once
 
 #include <storey/segmentation/detail/cell_labels.h>
+#include <storey/segmentation/detail/method_steps.h>
 #include <storey/segmentation/detail/outline_trade_off.h>
 #include <storey/segmentation/detail/wall_points.h>
 #include <storey/segmentation/floorplan.h>
@@ -15,6 +16,7 @@ struct BuildingFloorplanOptions {
   double block_cost = 0.0;     ///< K, wall area that one more block must explain; 0: derived
   double min_area = 0.0;       ///< of a component or courtyard
   SimplicityLimits limits;
+  MethodSteps steps = {};
   double keep_components = 0.1;  ///< components with less of the best supported one's support go
 };
 
@@ -36,9 +38,5 @@ BuildingFloorplans extractBuildingFloorplans(const std::vector<WallPoint>& point
                                              const std::vector<LevelPoint>& level_points,
                                              const WallScale& scale,
                                              const BuildingFloorplanOptions& options);
-
-/// Lines for walls that were not seen: at both ends of each run of a wall's support through which
-/// no other line passes, one of every other dominant direction.
-std::vector<PlanLine> hypothesiseLines(const std::vector<WallLine>& walls, const WallScale& scale);
 
 }  // namespace storey::detail

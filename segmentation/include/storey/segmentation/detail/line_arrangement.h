@@ -10,6 +10,7 @@ namespace storey::detail {
 struct PlanLine {
   Eigen::Vector2d normal;
   double offset = 0.0;
+  bool hypothetical = false;  ///< no wall was found there
 
   Eigen::Vector2d tangent() const { return {-normal.y(), normal.x()}; }
   double across(const Eigen::Vector2d& p) const { return normal.dot(p) - offset; }

@@ -27,15 +27,16 @@ struct WallEvidence {
 };
 
 /// Gives each point to the nearest line within 2.5 noise deviations whose direction its normal
-/// confirms (within 60 degrees), there to its edge and bin.
+/// confirms (within 60 degrees), there to its edge and bin; to a hypothetical line only where there
+/// is no other: it would cut corners of walls that were found.
 ///
 /// `seen` is counted in tiles of the edge, one bin high and as wide as six points need. A tile is
 /// seen wholly if its points (those ahead less those behind: errors of orientation cancel) have
 /// half the density of the walls at its height, and in proportion below that. So a dense patch does
 /// not stand for a whole wall, and walls that are sampled more thinly than others count all the
-/// same.
+/// same. \param saturated false: `seen` is the plain sum of the points over the density of all
 WallEvidence gatherEvidence(const LineArrangement& plan, const std::vector<WallPoint>& points,
-                            const WallScale& scale);
+                            const WallScale& scale, bool saturated = true);
 
 /// Boundaries (bins) of the layers: the optimal partition of the heights into ranges in which each
 /// edge has a constant density, by dynamic programming. Poisson likelihood with change points that

@@ -19,6 +19,12 @@ std::vector<std::pair<double, double>> runsAlong(const std::vector<WallPoint>& p
                                                  const std::vector<int>& support,
                                                  const WallScale& scale, const WallLine& line);
 
+/// The heights at which most points keep to one level across the line: a storey may be set back by
+/// a few deviations. Windows do not count as that, for at no height are they all of a wall.
+std::vector<int> atMainHeights(const std::vector<WallPoint>& points,
+                               const std::vector<int>& support, const WallScale& scale,
+                               const WallLine& line);
+
 /// Without the runs that turn against the line by more than their noise explains: they are of walls
 /// that the line only crosses.
 std::vector<int> withoutLeaningRuns(const std::vector<WallPoint>& points,

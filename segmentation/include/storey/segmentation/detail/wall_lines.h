@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <storey/segmentation/detail/method_steps.h>
 #include <storey/segmentation/detail/wall_points.h>
 
 #include <vector>
@@ -9,6 +10,7 @@ namespace storey::detail {
 
 struct WallLineOptions {
   double min_area = 0.0;  ///< least supported area of a wall
+  MethodSteps steps = {};
 };
 
 /// At most 250,000 of the points, evenly drawn: enough to find lines with.
@@ -23,7 +25,8 @@ std::vector<WallPoint> drawEvenly(const std::vector<WallPoint>& points);
 /// 3. Locked pass: everything again with the directions fixed, so that only offsets are fitted.
 ///    Parallel walls a few deviations apart are told apart, where free lines lean over both.
 /// 4. Free pass on what is left.
-/// 5. Lines that duplicate a stronger one are dropped.
+/// 5. Both again at heights with much fewer points than the rest, where cells have to be larger.
+/// 6. Lines that duplicate stronger ones, or that others explain, are dropped.
 /// \return lines by support, strongest first
 std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const WallScale& scale,
                                     const WallLineOptions& options);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <storey/segmentation/detail/method_steps.h>
 #include <storey/segmentation/detail/wall_points.h>
 
 #include <vector>
@@ -9,6 +10,7 @@ namespace storey::detail {
 
 struct SupportOptions {
   bool fit_direction = true;  ///< false: the direction is locked, only the offset is fitted
+  MethodSteps steps = {};
 };
 
 /// Finds what supports a line among `candidates` (indices into `points`, all of them free and with

@@ -48,6 +48,7 @@ bool BuildingFloorplanExtraction<PointT>::extract(std::vector<FloorplanLayer>& b
   options.min_wall_area = input.min_wall_area;
   options.block_cost = block_cost_;
   options.limits = limits_;
+  options.steps = steps_;
   options.min_area = std::pow(detail::kMinComponentSideInNoise * input.scale.noise, 2);
   result_ = detail::extractBuildingFloorplans(input.walls, input.levels, input.scale, options);
   blocks = result_.layers;

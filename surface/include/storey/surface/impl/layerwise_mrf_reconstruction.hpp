@@ -92,6 +92,7 @@ bool LayerwiseMRFReconstruction<PointT>::build() {
   options.dominant = options_;
   options.dominant.length_tolerance = detail::kLetterToleranceInNoise * options.noise;
   options.grid = grid_;
+  options.steps = steps_;
   const FitPoints points = detail::toFitPoints(*this->input_, *this->indices_);
   if (!floorplans_.empty()) {
     options.slice_thickness = floorplans_.front().z_max - floorplans_.front().z_min;

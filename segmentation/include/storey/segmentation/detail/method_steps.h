@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace storey::detail {
+
+/// The steps of the default method that it can do without, for experiments: which of them matter is
+/// measured by `storey_accuracy ablation`. All are on.
+struct MethodSteps {
+  // The search for wall lines.
+  bool locked_directions = true;  ///< the pass with the directions that the lines share
+  bool thin_heights = true;       ///< passes for heights with much fewer points than the rest
+  bool main_tiles = true;         ///< parallel walls told apart by the medians of tiles
+  bool setbacks = true;           ///< storeys set back by a few deviations told apart
+  bool flatness = true;           ///< points that are not of one flat wall cut off, along it
+  bool surface_test = true;       ///< lines about which points lie evenly refused
+  bool leftovers = true;          ///< lines that others explain dropped
+  // The labelling of the cells.
+  bool hypotheses = true;       ///< lines for walls that were not seen
+  bool saturated_tiles = true;  ///< evidence in tiles that are full at half the density; else sums
+  bool pruning = true;          ///< outlines simplified
+  bool transitions = true;      ///< blocks that straddle a change divided
+  bool second_pass = true;      ///< all again with the lines in use, refitted
+  bool weak_parts = true;       ///< parts with little support dropped
+  // The fits.
+  bool panes = true;              ///< windows that are set back taken as a mode of their own
+  bool shared_directions = true;  ///< walls that agree share one direction
+  bool upright = true;            ///< the points turned by what walls lean by together
+  bool unseen_walls = true;       ///< walls without points put where their neighbours end
+};
+
+}  // namespace storey::detail

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <storey/segmentation/detail/line_arrangement.h>
+#include <storey/segmentation/detail/wall_points.h>
+
+#include <vector>
+
+namespace storey::detail {
+
+/// Lines for walls that were not seen. Where one is missing, its neighbours end in nothing: at one
+/// place over much of a height (`WallEnd`), where no other wall was seen. A line explains such
+/// ends: one of a known direction through two of them at common heights; else one in the direction
+/// from one to the other; an end that is left alone gets a line of every other direction. What ends
+/// over most height comes first; no more than 30 lines, ten of each kind. Where all walls meet,
+/// there are none: lines that explain nothing would cut corners.
+/// \param corner_gap length by which the points of walls end short of corners
+std::vector<PlanLine> hypothesiseLines(const std::vector<WallLine>& walls,
+                                       const std::vector<WallPoint>& points, const WallScale& scale,
+                                       double corner_gap);
+
+}  // namespace storey::detail

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/wall_density.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace storey::detail {
+namespace {
+
+constexpr std::size_t kZones = 16;
+constexpr std::size_t kSamples = 200;    // points of a zone
+constexpr double kWanted = 10.0;         // points around one
+constexpr double kLeastRadius = 4.0;     // noise deviations
+constexpr double kRadiusStep = 1.4;      // the area doubles
+constexpr double kMostRadius = 1.0 / 8;  // of the height of all
+
+// Points, by height, about a height.
+using ByHeight = std::vector<const WallPoint*>;
+
+double pointsAround(const ByHeight& points, const WallPoint& center, double radius) {
+  const auto below = [](const WallPoint* p, double z) { return p->z < z; };
+  auto p = std::lower_bound(points.begin(), points.end(), center.z - radius, below);
+  double count = -1.0;  // itself
+  for (; p != points.end() && (*p)->z <= center.z + radius; ++p) {
+    const double dz = (*p)->z - center.z;
+    const double distance = ((*p)->position - center.position).squaredNorm() + dz * dz;
+    if (distance < radius * radius && (*p)->normal.dot(center.normal) > kMinAgreement) count += 1.0;
+  }
+  return count;
+}
+
+}  // namespace
+
+HeightDensity::HeightDensity(const std::vector<WallPoint>& points, const WallScale& scale)
+    : densities_(kZones, scale.density) {
+  if (points.empty()) return;
+  ByHeight sorted;
+  for (const WallPoint& p : points) sorted.push_back(&p);
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const WallPoint* a, const WallPoint* b) { return a->z < b->z; });
+  low_ = sorted.front()->z;
+  const double height = sorted.back()->z - low_;
+  step_ = std::max(height / kZones, std::numeric_limits<double>::min());
+  std::vector<ByHeight> zones(kZones);
+  for (const WallPoint* p : sorted) zones[zoneOf(p->z)].push_back(p);
+  for (std::size_t k = 0; k < kZones; ++k) {
+    const ByHeight& zone = zones[k];
+    const std::size_t step = zone.size() / kSamples + 1;
+    double radius = std::max(kLeastRadius * scale.noise, std::sqrt(1.0 / scale.density));
+    for (; !zone.empty(); radius *= kRadiusStep) {
+      std::vector<double> counts;
+      for (std::size_t i = step / 2; i < zone.size(); i += step) {
+        counts.push_back(pointsAround(sorted, *zone[i], radius));
+      }
+      if (counts.empty()) break;
+      const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
+      std::nth_element(counts.begin(), middle, counts.end());
+      densities_[k] = std::max(*middle, 1.0) / (M_PI * radius * radius);
+      if (*middle >= kWanted || radius > kMostRadius * height) break;
+    }
+  }
+}
+
+double HeightDensity::least() const {
+  return *std::min_element(densities_.begin(), densities_.end());
+}
+
+std::size_t HeightDensity::zoneOf(double z) const {
+  return std::min(kZones - 1, static_cast<std::size_t>(std::max(0.0, (z - low_) / step_)));
+}
+
+}  // namespace storey::detail
