@@ -11,7 +11,8 @@ namespace {
 
 constexpr const char* kHeader =
     "building,cloud,method,seed,points,error,error_deviation,error_limit,corner,worst_corner,"
-    "corner_limit,iou,polygons,true_polygons,corners,true_corners,valid,exact,seconds,problem\n";
+    "corner_limit,iou,polygons,true_polygons,corners,true_corners,hidden_walls,worst_shown_corner,"
+    "valid,exact,exact_where_shown,seconds,problem\n";
 
 std::string quoted(const std::string& text) {
   std::string result = "\"";
@@ -21,13 +22,14 @@ std::string quoted(const std::string& text) {
 
 std::string rowOf(const Experiment& experiment, const Outcome& outcome) {
   const Measures& m = outcome.measures;
-  char numbers[400];
-  std::snprintf(numbers, sizeof numbers,
-                "%llu,%zu,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%zu,%zu,%zu,%zu,%d,%d,%.3f,",
-                static_cast<unsigned long long>(experiment.sampling.seed), m.points, m.error,
-                m.error_deviation, m.error_limit, m.corner, m.worst_corner, m.corner_limit, m.iou,
-                m.polygons, m.true_polygons, m.corners, m.true_corners, m.valid ? 1 : 0,
-                isExact(outcome) ? 1 : 0, m.seconds);
+  char numbers[500];
+  std::snprintf(
+      numbers, sizeof numbers,
+      "%llu,%zu,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%zu,%zu,%zu,%zu,%zu,%.9g,%d,%d,%d,%.3f,",
+      static_cast<unsigned long long>(experiment.sampling.seed), m.points, m.error,
+      m.error_deviation, m.error_limit, m.corner, m.worst_corner, m.corner_limit, m.iou, m.polygons,
+      m.true_polygons, m.corners, m.true_corners, m.hidden_walls, m.worst_shown_corner,
+      m.valid ? 1 : 0, isExact(outcome) ? 1 : 0, isExactWhereShown(outcome) ? 1 : 0, m.seconds);
   return experiment.building + "," + quoted(experiment.label) + "," +
          methodName(experiment.method) + "," + numbers + quoted(outcome.problem) + "\n";
 }

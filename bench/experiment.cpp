@@ -4,13 +4,16 @@
 #include <storey/surface/extrusion.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
 #include "bench/isolation.h"
+#include "bench/shown_truth.h"
 #include "io/cloud_offset.h"
 #include "io/failure.h"
 #include "io/model_io.h"
@@ -79,6 +82,32 @@ void compare(const io::PolygonSoup& model, const ModelCheck& check, const io::Po
   if (!check.ok()) outcome.problem = check.problems.front();
 }
 
+/// \param sampling whose clouds have points on walls only
+ShownTruth shownOf(const PolyhedralModel& truth, const std::vector<FloorplanLayer>& layers,
+                   const synth::SyntheticCloud& cloud, const synth::SamplingOptions& sampling) {
+  const Eigen::Matrix3d back = sampling.pose.rotation().transpose() / sampling.pose.scale;
+  std::vector<Vector3d> positions;
+  std::vector<Vector3d> normals;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.sources[i] != synth::PointSource::Building) continue;
+    positions.emplace_back(back * (cloud.positions[i] - sampling.pose.offset));
+    normals.emplace_back((back * cloud.normals[i]).normalized());
+  }
+  const double area = synth::SurfaceSampler(layers, sampling.faces).wallArea();
+  return findShownTruth(truth, positions, normals, sampling.noise,
+                        static_cast<double>(sampling.points) / area);
+}
+
+double worstDistance(const std::vector<Vector3d>& corners, const std::vector<Vector3d>& vertices) {
+  double worst = 0.0;
+  for (const Vector3d& corner : corners) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Vector3d& v : vertices) nearest = std::min(nearest, (v - corner).norm());
+    worst = std::max(worst, nearest);
+  }
+  return worst;
+}
+
 /// The building as far as it can be known: nothing tells how far down a foot without points goes.
 std::vector<FloorplanLayer> knownPart(const std::vector<FloorplanLayer>& layers,
                                       const synth::Defects& defects) {
@@ -105,12 +134,15 @@ Outcome performHere(const Experiment& experiment) {
   m.true_corners = truth.vertices.size();
   m.error_limit = limit.vertex_to_facet;
   m.corner_limit = limit.corner_displacement;
-  io::LoadedCloud cloud =
-      toLoaded(synth::sampleBuilding(layers, sampling), experiment.with_normals);
+  const synth::SyntheticCloud points = synth::sampleBuilding(layers, sampling);
+  const ShownTruth shown = shownOf(truth, layers, points, sampling);
+  m.hidden_walls = shown.hidden_walls;
+  io::LoadedCloud cloud = toLoaded(points, experiment.with_normals);
   m.points = cloud.cloud->size();
   reconstruct::Options options;
   options.method = experiment.method;
   options.threads = 1;
+  options.steps = experiment.steps;
   const double start = cpuSeconds();
   try {
     const reconstruct::Result result = reconstruct::reconstruct(std::move(cloud), options);
@@ -118,6 +150,7 @@ Outcome performHere(const Experiment& experiment) {
     const io::PolygonSoup model = unposed(result, sampling.pose);
     outcome.vertices = model.vertices;
     compare(model, result.model.check, io::toPolygons(truth), outcome);
+    m.worst_shown_corner = worstDistance(shown.corners, model.vertices);
     m.has_model = true;
     m.grid = result.model.model.grid / sampling.pose.scale;
   } catch (const io::Failure& refusal) {

@@ -19,6 +19,7 @@ struct Experiment {
   synth::SamplingOptions sampling;
   bool with_normals = true;
   reconstruct::Method method = reconstruct::Method::Building;
+  detail::MethodSteps steps;
 };
 
 /// Plain numbers, so that they can be handed from process to process. Lengths are in the units of
@@ -28,15 +29,17 @@ struct Measures {
   double noise = 0.0;
   std::size_t true_polygons = 0;
   std::size_t true_corners = 0;
-  double error_limit = 0.0;   ///< of a clean cloud with that noise and number of points
-  double corner_limit = 0.0;  ///< the same
-  double seconds = 0.0;       ///< CPU time of the reconstruction, also of one that failed
+  double error_limit = 0.0;      ///< of a clean cloud with that noise and number of points
+  double corner_limit = 0.0;     ///< the same
+  std::size_t hidden_walls = 0;  ///< polygons of the truth that no points are of (`ShownTruth`)
+  double seconds = 0.0;          ///< CPU time of the reconstruction, also of one that failed
   bool has_model = false;
   // The following only if there is a model.
-  double error = 0.0;            ///< the paper's: model vertices to true facets, mean
-  double error_deviation = 0.0;  ///< standard deviation of the same
-  double corner = 0.0;           ///< true corners to model vertices, mean
-  double worst_corner = 0.0;     ///< the same, largest
+  double error = 0.0;               ///< the paper's: model vertices to true facets, mean
+  double error_deviation = 0.0;     ///< standard deviation of the same
+  double corner = 0.0;              ///< true corners to model vertices, mean
+  double worst_corner = 0.0;        ///< the same, largest
+  double worst_shown_corner = 0.0;  ///< of those at which two walls with points meet
   double iou = 0.0;
   std::size_t polygons = 0;
   std::size_t corners = 0;

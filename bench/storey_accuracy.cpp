@@ -21,6 +21,7 @@ Suite suiteOf(const std::string& name) {
   if (name == "named") return bench::measureNamed;
   if (name == "random") return bench::measureRandom;
   if (name == "combined") return bench::measureCombined;
+  if (name == "ablation") return bench::measureAblation;
   if (name == "defects") return bench::measureDefects;
   if (name == "shapes") return bench::measureShapes;
   if (name == "real") return bench::measureReal;
@@ -43,6 +44,7 @@ po::options_description describe(bench::Request& r) {
       "  named       the paper's buildings and other simple ones, by both methods\n"
       "  random      clean clouds of random buildings\n"
       "  combined    the same with all defects at once\n"
+      "  ablation    clean and with all defects, without one step of the method at a time\n"
       "  defects     one defect at a time, at rising levels\n"
       "  shapes      a round building; other scales and places\n"
       "  real DIR    the .ply clouds of a folder, whose truth is not known\n"

@@ -31,10 +31,17 @@ struct Request {
 /// `perform` as requested, with the numbers left in `Request::csv`.
 std::vector<Outcome> perform(const Request& request, const std::vector<Experiment>& experiments);
 
+/// Clean clouds of random buildings, from the request's seed on.
+std::vector<Experiment> randomBuildings(const Request& request, std::size_t count);
+
+/// The same with all defects at once.
+std::vector<Experiment> damagedBuildings(const Request& request, std::size_t count);
+
 /// Each measures and prints a section in Markdown to stdout.
 void measureNamed(const Request& request);     ///< the paper's buildings, beside its figures
 void measureRandom(const Request& request);    ///< clean clouds of random buildings
 void measureCombined(const Request& request);  ///< the same with all defects at once
+void measureAblation(const Request& request);  ///< the same two, without one step at a time
 void measureDefects(const Request& request);   ///< one defect at a time, at rising levels
 void measureShapes(const Request& request);    ///< a round building; other scales and places
 void measureReal(const Request& request);      ///< clouds without truth

@@ -26,6 +26,15 @@ bool isExact(const Outcome& outcome) {
          m.worst_corner <= kCornerReach * m.noise;
 }
 
+bool isExactWhereShown(const Outcome& outcome) {
+  const Measures& m = outcome.measures;
+  if (m.hidden_walls == 0 || isExact(outcome)) return isExact(outcome);
+  return m.has_model && m.polygons <= m.true_polygons &&
+         m.polygons + 2 * m.hidden_walls >= m.true_polygons && m.corners <= m.true_corners &&
+         m.corners + 4 * m.hidden_walls >= m.true_corners &&
+         m.worst_shown_corner <= kCornerReach * m.noise;
+}
+
 double errorRatio(const Outcome& outcome) {
   return outcome.measures.error / outcome.measures.error_limit;
 }
@@ -42,6 +51,7 @@ Summary summarize(const std::vector<Outcome>& outcomes, double wanted_iou) {
     const Measures& m = outcome.measures;
     ++s.count;
     s.exact += isExact(outcome) ? 1 : 0;
+    s.exact_where_shown += isExactWhereShown(outcome) ? 1 : 0;
     ious.push_back(m.has_model ? m.iou : 0.0);
     s.overlapping += ious.back() >= wanted_iou ? 1 : 0;
     seconds.push_back(m.seconds);

@@ -22,6 +22,12 @@ double median(std::vector<double> values);
 /// As many polygons and corners as the truth, and every true corner near a vertex of the model.
 bool isExact(const Outcome& outcome);
 
+/// Exact, but for what no point shows: every true corner at which two walls with points meet is
+/// near a vertex of the model, and of polygons and corners none are too many and no more are
+/// missing than hidden walls can have hidden, two polygons (with a roof) and four corners each. The
+/// same as `isExact` where no wall is hidden.
+bool isExactWhereShown(const Outcome& outcome);
+
 /// The paper's error over its statistical limit.
 double errorRatio(const Outcome& outcome);
 
@@ -32,6 +38,7 @@ struct Summary {
   std::size_t models = 0;
   std::size_t valid = 0;
   std::size_t exact = 0;
+  std::size_t exact_where_shown = 0;
   std::size_t overlapping = 0;  ///< with at least the wanted IoU
   double iou_median = 0.0;
   double iou_min = 0.0;

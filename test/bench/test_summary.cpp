@@ -62,6 +62,50 @@ TEST(Exactness, WantsPolygonsAndCornersAndTheirPlaces) {
   EXPECT_TRUE(isExact(outcome));
 }
 
+TEST(ExactWhereShown, IsExactWhereNoWallIsHidden) {
+  EXPECT_TRUE(isExactWhereShown(good()));
+  EXPECT_FALSE(isExactWhereShown(refused()));
+  Outcome outcome = good();
+  outcome.measures.worst_corner = 0.51;  // of the noise 0.1, the corners shown do not count
+  EXPECT_FALSE(isExactWhereShown(outcome));
+}
+
+TEST(ExactWhereShown, ForgivesWhatAHiddenWallCanHide) {
+  Outcome outcome = good();
+  Measures& m = outcome.measures;
+  m.hidden_walls = 1;
+  m.worst_corner = 20.0;
+  m.worst_shown_corner = 0.5;
+  EXPECT_TRUE(isExactWhereShown(outcome));
+  m.polygons = 4;
+  m.corners = 4;
+  EXPECT_TRUE(isExactWhereShown(outcome));
+  m.polygons = 3;
+  EXPECT_FALSE(isExactWhereShown(outcome));
+  m.polygons = 4;
+  m.corners = 3;
+  EXPECT_FALSE(isExactWhereShown(outcome));
+  m.hidden_walls = 2;
+  EXPECT_TRUE(isExactWhereShown(outcome));
+}
+
+TEST(ExactWhereShown, ForgivesNothingTooManyNorACornerShown) {
+  Outcome outcome = good();
+  outcome.measures.hidden_walls = 1;
+  outcome.measures.worst_corner = 20.0;
+  for (const auto too_many : {&Measures::polygons, &Measures::corners}) {
+    Outcome more = outcome;
+    ++(more.measures.*too_many);
+    EXPECT_FALSE(isExactWhereShown(more));
+  }
+  outcome.measures.worst_shown_corner = 0.51;
+  EXPECT_FALSE(isExactWhereShown(outcome));
+  outcome = refused();
+  outcome.measures.hidden_walls = 1;
+  outcome.measures.worst_corner = 20.0;
+  EXPECT_FALSE(isExactWhereShown(outcome));
+}
+
 TEST(Summary, CountsFailuresAsWhatTheyAre) {
   Outcome worse = good();
   worse.measures.iou = 0.9;
