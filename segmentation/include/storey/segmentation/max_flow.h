@@ -17,6 +17,9 @@ class MaxFlow {
 
   explicit MaxFlow(std::size_t num_nodes);
 
+  /// Makes room for so many edges.
+  void reserve(std::size_t num_edges) { arcs_.reserve(2 * num_edges); }
+
   /// Adds to the capacities of the arcs source -> node and node -> sink (both >= 0). In terms of
   /// a cut: the node pays `from_source` when it is on the sink's side, `to_sink` otherwise.
   void addTerminalCapacities(std::size_t node, Capacity from_source, Capacity to_sink);
