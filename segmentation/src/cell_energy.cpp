@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/segmentation/detail/cell_energy.h>
-#include <storey/segmentation/max_flow.h>
 
 #include <algorithm>
 #include <cmath>
@@ -124,8 +123,8 @@ std::vector<CellTerms> termsOfLayers(const LineArrangement& plan, const WallEvid
   return layers;
 }
 
-double minimumCut(const LineArrangement& plan, const CellTerms& terms, double gap,
-                  const std::vector<char>& tied, std::vector<char>& inside) {
+LabelCut::LabelCut(const LineArrangement& plan, const CellTerms& terms, double gap)
+    : plan_(&plan), tied_(plan.edges.size(), 0), flow_(plan.cells.size()) {
   double total = 1e-300;
   for (const double a : terms.area) total += a;
   for (const double u : terms.unary) total += std::abs(u);
@@ -133,27 +132,41 @@ double minimumCut(const LineArrangement& plan, const CellTerms& terms, double ga
   const auto integer = [&](double value) {
     return static_cast<MaxFlow::Capacity>(std::llround(value * scale));
   };
-  const std::size_t n = plan.cells.size();
+  forbidden_ = integer(kForbidden * total);
+  flow_.reserve(plan.edges.size());
   std::vector<double> unary = terms.unary;  // cost of being inside
-  MaxFlow flow(n);
   for (std::size_t e = 0; e < plan.edges.size(); ++e) {
     const PlanEdge& edge = plan.edges[e];
     unary[static_cast<std::size_t>(edge.ahead)] += terms.signed_area[e];
     unary[static_cast<std::size_t>(edge.behind)] -= terms.signed_area[e];
-    const auto guess = tied.empty() || tied[e] == 0
-                           ? integer(gap * (terms.area[e] - std::abs(terms.signed_area[e])))
-                           : integer(kForbidden * total);
-    flow.addEdge(static_cast<std::size_t>(edge.behind), static_cast<std::size_t>(edge.ahead), guess,
-                 guess);
+    const auto guess = integer(gap * (terms.area[e] - std::abs(terms.signed_area[e])));
+    flow_.addEdge(static_cast<std::size_t>(edge.behind), static_cast<std::size_t>(edge.ahead),
+                  guess, guess);
   }
-  for (std::size_t c = 0; c < n; ++c) {
+  for (std::size_t c = 0; c < plan.cells.size(); ++c) {
     // Source side = inside: pays `to_sink` there, `from_source` on the other side.
     const double cost = plan.at_border[c] != 0 ? kForbidden * total : unary[c];
-    flow.addTerminalCapacities(c, cost < 0.0 ? integer(-cost) : 0, cost > 0.0 ? integer(cost) : 0);
+    flow_.addTerminalCapacities(c, cost < 0.0 ? integer(-cost) : 0, cost > 0.0 ? integer(cost) : 0);
   }
-  flow.solve();
-  inside.resize(n);
-  for (std::size_t c = 0; c < n; ++c) inside[c] = flow.inSourceSide(c) ? 1 : 0;
+}
+
+void LabelCut::tie(std::size_t edge) {
+  if (tied_[edge] != 0) return;
+  tied_[edge] = 1;
+  flow_.addEdge(static_cast<std::size_t>(plan_->edges[edge].behind),
+                static_cast<std::size_t>(plan_->edges[edge].ahead), forbidden_, forbidden_);
+}
+
+std::vector<char> LabelCut::solve() {
+  flow_.solve();
+  std::vector<char> inside(plan_->cells.size());
+  for (std::size_t c = 0; c < inside.size(); ++c) inside[c] = flow_.inSourceSide(c) ? 1 : 0;
+  return inside;
+}
+
+double minimumCut(const LineArrangement& plan, const CellTerms& terms, double gap,
+                  std::vector<char>& inside) {
+  inside = LabelCut(plan, terms, gap).solve();
   return energyOf(plan, terms, gap, inside);
 }
 

@@ -32,7 +32,7 @@ std::vector<CellBlock> labelCells(const LineArrangement& plan, const WallEvidenc
     for (std::size_t end = start + 1; end <= num_layers; ++end) {
       if (end > start + 1) sum.add(layers[end - 1]);
       CellBlock block{levels[start], levels[end], 0.0, {}, sum, {}};
-      block.energy = minimumCut(plan, sum, options.gap, {}, block.inside);
+      block.energy = minimumCut(plan, sum, options.gap, block.inside);
       const double energy = best[start] + options.block + block.energy;
       if (energy >= best[end]) continue;
       best[end] = energy;

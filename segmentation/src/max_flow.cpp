@@ -2,121 +2,195 @@
 #include <storey/segmentation/max_flow.h>
 
 #include <algorithm>
-#include <boost/graph/boykov_kolmogorov_max_flow.hpp>
-#include <boost/graph/compressed_sparse_row_graph.hpp>
 #include <cassert>
-#include <utility>
+#include <cstdlib>
+#include <limits>
 
 namespace storey {
 namespace {
 
-using Graph = boost::compressed_sparse_row_graph<boost::directedS>;
-using Arc = Graph::edge_descriptor;
-using Vertex = Graph::vertex_descriptor;
-
-// The arcs of the graph in the order of their start, each with its reverse.
-class ArcTable {
- public:
-  explicit ArcTable(std::size_t num_vertices) : num_vertices_(num_vertices) {}
-
-  void add(Vertex from, Vertex to, MaxFlow::Capacity capacity, MaxFlow::Capacity reverse) {
-    added_.push_back({from, to, capacity});
-    added_.push_back({to, from, reverse});  // the reverse of arc 2i is 2i + 1
-  }
-
-  Graph build() {
-    std::vector<std::size_t> next(num_vertices_ + 1, 0);
-    for (const Added& arc : added_) {
-      ++next[arc.from + 1];
-    }
-    for (std::size_t v = 0; v < num_vertices_; ++v) {
-      next[v + 1] += next[v];
-    }
-    std::vector<std::size_t> place(added_.size());
-    for (std::size_t a = 0; a < added_.size(); ++a) {
-      place[a] = next[added_[a].from]++;
-    }
-    std::vector<std::pair<Vertex, Vertex>> ends(added_.size());
-    capacity_.resize(added_.size());
-    reverse_.resize(added_.size());
-    for (std::size_t a = 0; a < added_.size(); ++a) {
-      ends[place[a]] = {added_[a].from, added_[a].to};
-      capacity_[place[a]] = added_[a].capacity;
-      reverse_[place[a]] = Arc(added_[a].to, place[a ^ 1U]);
-    }
-    return Graph(boost::edges_are_sorted, ends.begin(), ends.end(), num_vertices_);
-  }
-
-  const std::vector<MaxFlow::Capacity>& capacities() const { return capacity_; }
-  const std::vector<Arc>& reverses() const { return reverse_; }
-
- private:
-  struct Added {
-    Vertex from;
-    Vertex to;
-    MaxFlow::Capacity capacity;
-  };
-  std::size_t num_vertices_;
-  std::vector<Added> added_;
-  std::vector<MaxFlow::Capacity> capacity_;
-  std::vector<Arc> reverse_;
-};
+constexpr auto kFar = std::numeric_limits<std::int32_t>::max();
 
 }  // namespace
 
-MaxFlow::MaxFlow(std::size_t num_nodes)
-    : from_source_(num_nodes, 0), to_sink_(num_nodes, 0), in_source_side_(num_nodes, false) {}
+MaxFlow::MaxFlow(std::size_t num_nodes) : nodes_(num_nodes) {}
 
 void MaxFlow::addTerminalCapacities(std::size_t node, Capacity from_source, Capacity to_sink) {
-  assert(node < from_source_.size() && from_source >= 0 && to_sink >= 0);
-  from_source_[node] += from_source;
-  to_sink_[node] += to_sink;
+  assert(node < nodes_.size() && from_source >= 0 && to_sink >= 0);
+  Capacity& residual = nodes_[node].terminal;
+  (residual > 0 ? from_source : to_sink) += std::abs(residual);
+  flow_ += std::min(from_source, to_sink);  // straight through the node
+  residual = from_source - to_sink;
 }
 
 void MaxFlow::addEdge(std::size_t i, std::size_t j, Capacity capacity, Capacity reverse_capacity) {
-  assert(i < from_source_.size() && j < from_source_.size());
+  assert(i < nodes_.size() && j < nodes_.size());
   assert(capacity >= 0 && reverse_capacity >= 0);
-  if (i != j) {
-    edges_.push_back({i, j, capacity, reverse_capacity});
-  }
+  if (i == j) return;
+  addArc(i, j, capacity);
+  addArc(j, i, reverse_capacity);
+}
+
+void MaxFlow::addArc(std::size_t tail, std::size_t head, Capacity capacity) {
+  arcs_.push_back({capacity, static_cast<Index>(head), nodes_[tail].first});
+  nodes_[tail].first = static_cast<Index>(arcs_.size() - 1);
 }
 
 MaxFlow::Capacity MaxFlow::solve() {
-  const std::size_t num_nodes = from_source_.size();
-  const Vertex source = num_nodes;
-  const Vertex sink = num_nodes + 1;
-  ArcTable arcs(num_nodes + 2);
-  Capacity direct_flow = 0;  // straight through a node; then only one terminal is left to it
-  for (std::size_t v = 0; v < num_nodes; ++v) {
-    const Capacity direct = std::min(from_source_[v], to_sink_[v]);
-    direct_flow += direct;
-    if (from_source_[v] > direct) {
-      arcs.add(source, v, from_source_[v] - direct, 0);
-    } else if (to_sink_[v] > direct) {
-      arcs.add(v, sink, to_sink_[v] - direct, 0);
+  plantTrees();
+  for (std::size_t next = 0; next < active_.size(); ++next) {
+    const Index node = active_[next];
+    at(node).active = false;
+    // The path found may leave the node in its tree, with arcs not looked at yet.
+    for (Index middle = grow(node); middle != kNone; middle = grow(node)) augment(middle);
+  }
+  return flow_;
+}
+
+// Every node that a terminal can still reach by itself is the root of a tree.
+void MaxFlow::plantTrees() {
+  active_.clear();
+  time_ = 0;
+  for (std::size_t v = 0; v < nodes_.size(); ++v) {
+    Node& node = nodes_[v];
+    node.tree = node.terminal > 0 ? Tree::kSource : node.terminal < 0 ? Tree::kSink : Tree::kFree;
+    node.parent = node.tree == Tree::kFree ? kNone : kTerminal;
+    node.distance = 1;
+    node.time = 0;
+    node.active = false;
+    if (node.tree != Tree::kFree) activate(static_cast<Index>(v));
+  }
+}
+
+void MaxFlow::activate(Index node) {
+  if (at(node).active) return;
+  at(node).active = true;
+  active_.push_back(node);
+}
+
+// Takes free neighbours of the node into its tree.
+// \return the arc from the source's tree to the sink's, if it meets the other tree
+MaxFlow::Index MaxFlow::grow(Index node) {
+  const Node& own = at(node);
+  if (own.tree == Tree::kFree) return kNone;
+  for (Index a = own.first; a != kNone; a = arc(a).next) {
+    if (outwards(a, own.tree) == 0) continue;
+    Node& other = at(arc(a).head);
+    if (other.tree == Tree::kFree) {
+      other.tree = own.tree;
+      other.parent = a ^ 1;
+      other.distance = own.distance + 1;
+      other.time = own.time;
+      activate(arc(a).head);
+    } else if (other.tree != own.tree) {
+      return own.tree == Tree::kSource ? a : a ^ 1;
+    } else if (other.time <= own.time && other.distance > own.distance + 1) {
+      other.parent = a ^ 1;  // a shorter way to the terminal
+      other.distance = own.distance + 1;
+      other.time = own.time;
     }
   }
-  for (const Edge& edge : edges_) {
-    arcs.add(edge.from, edge.to, edge.capacity, edge.reverse_capacity);
+  return kNone;
+}
+
+// Sends as much flow as fits along the path of both trees through the arc, and mends the trees.
+void MaxFlow::augment(Index middle) {
+  const Capacity flow = narrowest(middle);
+  flow_ += flow;
+  ++time_;
+  arc(middle).residual -= flow;
+  arc(middle ^ 1).residual += flow;
+  push(arc(middle ^ 1).head, 1, flow);
+  push(arc(middle).head, 0, flow);
+  while (!orphans_.empty()) {
+    const Index node = orphans_.back();
+    orphans_.pop_back();
+    adopt(node);
   }
-  Graph graph = arcs.build();
-  const auto arc_id = get(boost::edge_index, graph);
-  const auto node_id = get(boost::vertex_index, graph);
-  std::vector<Capacity> residual(arcs.capacities().size());
-  std::vector<Arc> parent(num_nodes + 2);
-  std::vector<boost::default_color_type> color(num_nodes + 2);
-  std::vector<std::size_t> distance(num_nodes + 2);
-  const Capacity flow = boost::boykov_kolmogorov_max_flow(
-      graph, boost::make_iterator_property_map(arcs.capacities().begin(), arc_id),
-      boost::make_iterator_property_map(residual.begin(), arc_id),
-      boost::make_iterator_property_map(arcs.reverses().begin(), arc_id),
-      boost::make_iterator_property_map(parent.begin(), node_id),
-      boost::make_iterator_property_map(color.begin(), node_id),
-      boost::make_iterator_property_map(distance.begin(), node_id), node_id, source, sink);
-  for (std::size_t v = 0; v < num_nodes; ++v) {
-    in_source_side_[v] = color[v] == boost::black_color;  // gray = free: with the sink
+}
+
+MaxFlow::Capacity MaxFlow::narrowest(Index middle) const {
+  Capacity least = arc(middle).residual;
+  for (const Index end : {middle ^ 1, middle}) {  // towards the source, towards the sink
+    Index node = arc(end).head;
+    for (Index up = at(node).parent; up != kTerminal; up = at(node).parent) {
+      least = std::min(least, arc(end == middle ? up : up ^ 1).residual);
+      node = arc(up).head;
+    }
+    least = std::min(least, std::abs(at(node).terminal));
   }
-  return direct_flow + flow;
+  return least;
+}
+
+// Sends flow between the node and its terminal. \param reverse 1: it comes from the parent, that
+// is, from the source; 0: it goes there
+void MaxFlow::push(Index node, Index reverse, Capacity flow) {
+  for (Index up = at(node).parent; up != kTerminal; up = at(node).parent) {
+    const Index used = up ^ reverse;
+    arc(used).residual -= flow;
+    arc(used ^ 1).residual += flow;
+    if (arc(used).residual == 0) orphan(node);
+    node = arc(up).head;
+  }
+  Capacity& terminal = at(node).terminal;
+  terminal += reverse != 0 ? -flow : flow;
+  if (terminal == 0) orphan(node);
+}
+
+void MaxFlow::orphan(Index node) {
+  at(node).parent = kNone;
+  orphans_.push_back(node);
+}
+
+// Finds the orphan the nearest new parent in its tree, or sets it free.
+void MaxFlow::adopt(Index node) {
+  Node& own = at(node);
+  Index nearest = kFar;
+  Index parent = kNone;
+  for (Index a = own.first; a != kNone; a = arc(a).next) {
+    if (at(arc(a).head).tree != own.tree || outwards(a ^ 1, own.tree) == 0) continue;
+    const Index distance = rootDistance(arc(a).head);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    parent = a;
+  }
+  if (parent == kNone) {
+    abandon(node);
+    return;
+  }
+  own.parent = parent;
+  own.distance = nearest + 1;
+  own.time = time_;
+}
+
+void MaxFlow::abandon(Index node) {
+  Node& own = at(node);
+  for (Index a = own.first; a != kNone; a = arc(a).next) {
+    const Index other = arc(a).head;
+    if (at(other).tree != own.tree) continue;
+    if (outwards(a ^ 1, own.tree) != 0) activate(other);
+    if (at(other).parent == (a ^ 1)) orphan(other);
+  }
+  own.tree = Tree::kFree;
+}
+
+// Number of arcs from the node to its terminal, marked on the way so that no way is walked twice
+// between two augmentations; far if it ends at an orphan.
+MaxFlow::Index MaxFlow::rootDistance(Index node) {
+  Index steps = 0;
+  Index end = node;
+  while (at(end).time != time_ && at(end).parent != kTerminal) {
+    if (at(end).parent == kNone) return kFar;
+    end = arc(at(end).parent).head;
+    ++steps;
+  }
+  const Index distance = steps + (at(end).time == time_ ? at(end).distance : 1);
+  Index left = distance;
+  for (Index v = node;; v = arc(at(v).parent).head) {
+    at(v).time = time_;
+    at(v).distance = left--;
+    if (v == end) return distance;
+  }
 }
 
 }  // namespace storey

@@ -16,30 +16,6 @@ int sideOf(const PlanEdge& edge, const std::vector<char>& inside) {
          int{inside[static_cast<std::size_t>(edge.ahead)]};
 }
 
-// Walls: a run may go on in several runs of the next block, and several in one.
-std::size_t countWalls(const std::vector<BlockOutline>& blocks) {
-  std::size_t num_runs = 0;
-  for (const BlockOutline& block : blocks) num_runs += block.runs->size();
-  UnionFind<> walls(num_runs);
-  std::size_t lower_id = 0;  // of the first run of the lower block
-  for (std::size_t b = 1; b < blocks.size(); ++b) {
-    const std::vector<OutlineRun>& lower = *blocks[b - 1].runs;
-    const std::vector<OutlineRun>& upper = *blocks[b].runs;
-    const std::size_t upper_id = lower_id + lower.size();
-    std::size_t from = 0;  // both are sorted, and runs of one block do not overlap
-    for (std::size_t u = 0; u < upper.size(); ++u) {
-      while (from < lower.size() && lower[from].last < upper[u].first) ++from;
-      for (std::size_t l = from; l < lower.size() && lower[l].first <= upper[u].last; ++l) {
-        if (lower[l].side == upper[u].side) walls.unite(lower_id + l, upper_id + u);
-      }
-    }
-    lower_id = upper_id;
-  }
-  std::size_t count = 0;
-  for (std::size_t r = 0; r < num_runs; ++r) count += walls.find(r) == r;
-  return count;
-}
-
 // The connected parts of the cells with equal marks.
 UnionFind<> partsOf(const LineArrangement& plan, const std::vector<int>& marks) {
   UnionFind<> parts(marks.size());
@@ -100,8 +76,33 @@ std::vector<OutlineRun> runsOf(const LineArrangement& plan, const CellTerms& ter
   return runs;
 }
 
+std::size_t countWalls(const std::vector<const std::vector<OutlineRun>*>& blocks) {
+  std::size_t num_runs = 0;
+  for (const auto* runs : blocks) num_runs += runs->size();
+  UnionFind<> walls(num_runs);
+  std::size_t lower_id = 0;  // of the first run of the lower block
+  for (std::size_t b = 1; b < blocks.size(); ++b) {
+    const std::vector<OutlineRun>& lower = *blocks[b - 1];
+    const std::vector<OutlineRun>& upper = *blocks[b];
+    const std::size_t upper_id = lower_id + lower.size();
+    std::size_t from = 0;  // both are sorted, and runs of one block do not overlap
+    for (std::size_t u = 0; u < upper.size(); ++u) {
+      while (from < lower.size() && lower[from].last < upper[u].first) ++from;
+      for (std::size_t l = from; l < lower.size() && lower[l].first <= upper[u].last; ++l) {
+        if (lower[l].side == upper[u].side) walls.unite(lower_id + l, upper_id + u);
+      }
+    }
+    lower_id = upper_id;
+  }
+  std::size_t count = 0;
+  for (std::size_t r = 0; r < num_runs; ++r) count += walls.find(r) == r;
+  return count;
+}
+
 std::size_t countFaces(const LineArrangement& plan, const std::vector<BlockOutline>& blocks) {
-  std::size_t faces = countWalls(blocks);
+  std::vector<const std::vector<OutlineRun>*> runs;
+  for (const BlockOutline& block : blocks) runs.push_back(block.runs);
+  std::size_t faces = countWalls(runs);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     faces += countCaps(plan, b > 0 ? blocks[b - 1].inside : nullptr, blocks[b].inside);
   }
@@ -115,6 +116,14 @@ std::size_t countFloating(const LineArrangement& plan, const std::vector<BlockOu
     floating += countFloating(plan, *blocks[b - 1].inside, *blocks[b].inside);
   }
   return floating;
+}
+
+double jointComplexity(const LineArrangement& plan, const std::vector<char>* lower,
+                       const std::vector<char>* upper) {
+  const bool between = lower != nullptr && upper != nullptr;
+  const std::size_t floating = between ? countFloating(plan, *lower, *upper) : 0;
+  return static_cast<double>(countCaps(plan, lower, upper)) +
+         kFloatingFaces * static_cast<double>(floating);
 }
 
 double complexityOf(const LineArrangement& plan, const std::vector<BlockOutline>& blocks) {

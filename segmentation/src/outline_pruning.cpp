@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -15,73 +16,100 @@ namespace {
 constexpr double kTriedUpTo = 3.0;   // costs: what has more to show than this stays
 constexpr double kLeastGain = 1e-9;  // of the cost, against endless exchanges
 
-// A block while it is pruned.
+// The outline of a block, and the cut that found it.
 struct Outline {
-  CellBlock block;
-  std::vector<char> tied;  // edges that may not bound it
+  LabelCut cut;
+  std::vector<char> inside;
+  double energy = 0.0;
   std::vector<OutlineRun> runs;
-  std::set<std::pair<std::size_t, std::size_t>> tried;  // runs that earn their cost
 };
 
 class Pruning {
  public:
   Pruning(const LineArrangement& plan, double gap, double cost, bool may_vanish,
           std::vector<CellBlock>& blocks)
-      : plan_(plan), gap_(gap), cost_(cost), may_vanish_(may_vanish) {
-    for (CellBlock& block : blocks) {
-      Outline outline;
-      outline.block = std::move(block);
-      outline.tied.assign(plan.edges.size(), 0);
-      outline.runs = runsOf(plan, outline.block.terms, outline.block.inside);
+      : plan_(plan), gap_(gap), cost_(cost), may_vanish_(may_vanish), blocks_(blocks) {
+    for (const CellBlock& block : blocks) {
+      Outline outline{LabelCut(plan, block.terms, gap), block.inside, block.energy, {}};
+      outline.cut.solve();  // once; trials go on from there
+      outline.runs = runsOf(plan, block.terms, block.inside);
       outlines_.push_back(std::move(outline));
     }
-    objective_ = objectiveOf({});
+    tried_.resize(blocks.size());
+    measureJoints();
+    objective_ = objectiveOf(stackOf({}), joints_);
   }
 
-  std::vector<CellBlock> run() {
+  void run() {
     dropLines();
     for (std::size_t b = 0; b < outlines_.size(); ++b) dropRuns(b);
     while (mergeBlocks()) {
     }
     dropLines();
-    std::vector<CellBlock> blocks;
-    for (Outline& outline : outlines_) blocks.push_back(std::move(outline.block));
-    return blocks;
+    for (std::size_t b = 0; b < outlines_.size(); ++b) {
+      blocks_[b].inside = std::move(outlines_[b].inside);
+      blocks_[b].energy = outlines_[b].energy;
+    }
   }
 
  private:
-  using Trials = std::map<std::size_t, Outline>;  // in place of the blocks of these numbers
+  using Trials = std::map<std::size_t, Outline>;  // in place of the outlines of these blocks
+  using Stack = std::vector<const Outline*>;
 
-  void cut(Outline& outline) const {
-    CellBlock& block = outline.block;
-    block.energy = minimumCut(plan_, block.terms, gap_, outline.tied, block.inside);
-    outline.runs = runsOf(plan_, block.terms, block.inside);
+  void cutAgain(const CellTerms& terms, Outline& outline) const {
+    outline.inside = outline.cut.solve();
+    outline.energy = energyOf(plan_, terms, gap_, outline.inside);
+    outline.runs = runsOf(plan_, terms, outline.inside);
   }
 
-  // F. \param without a block that is left out, for its neighbour has taken it in
-  double objectiveOf(const Trials& trials, std::size_t without = SIZE_MAX) const {
-    std::vector<BlockOutline> stack;
+  Stack stackOf(const Trials& trials) const {
+    Stack stack;
+    for (const Outline& outline : outlines_) stack.push_back(&outline);
+    for (const auto& [b, outline] : trials) stack[b] = &outline;
+    return stack;
+  }
+
+  // What the joint below a block of the stack costs; above the last block there is one more.
+  double jointOf(const Stack& stack, std::size_t b) const {
+    return jointComplexity(plan_, b > 0 ? &stack[b - 1]->inside : nullptr,
+                           b < stack.size() ? &stack[b]->inside : nullptr);
+  }
+
+  void measureJoints() {
+    const Stack stack = stackOf({});
+    joints_.clear();
+    for (std::size_t b = 0; b <= stack.size(); ++b) joints_.push_back(jointOf(stack, b));
+  }
+
+  // F
+  double objectiveOf(const Stack& stack, const std::vector<double>& joints) const {
+    std::vector<const std::vector<OutlineRun>*> runs;
     std::vector<char> used(plan_.lines.size(), 0);
     double energy = 0.0;
-    for (std::size_t b = 0; b < outlines_.size(); ++b) {
-      if (b == without) continue;
-      const auto trial = trials.find(b);
-      const Outline& outline = trial != trials.end() ? trial->second : outlines_[b];
-      energy += outline.block.energy;
-      stack.push_back({&outline.block.inside, &outline.runs});
-      for (const OutlineRun& run : outline.runs) {
+    for (const Outline* outline : stack) {
+      energy += outline->energy;
+      runs.push_back(&outline->runs);
+      for (const OutlineRun& run : outline->runs) {
         used[static_cast<std::size_t>(plan_.edges[run.first].line)] = 1;
       }
     }
     const auto lines = std::count(used.begin(), used.end(), 1);
     if (lines == 0 && !may_vanish_) return std::numeric_limits<double>::infinity();
-    return energy + cost_ * (complexityOf(plan_, stack) + static_cast<double>(lines));
+    const double complexity =
+        std::accumulate(joints.begin(), joints.end(), static_cast<double>(countWalls(runs)));
+    return energy + cost_ * (complexity + static_cast<double>(lines));
   }
 
   bool acceptIfLower(Trials trials) {
-    const double objective = objectiveOf(trials);
+    const Stack stack = stackOf(trials);
+    std::vector<double> joints = joints_;
+    for (const auto& trial : trials) {
+      for (const std::size_t b : {trial.first, trial.first + 1}) joints[b] = jointOf(stack, b);
+    }
+    const double objective = objectiveOf(stack, joints);
     if (objective >= objective_ - kLeastGain * cost_) return false;
     objective_ = objective;
+    joints_ = std::move(joints);
     for (auto& [b, outline] : trials) outlines_[b] = std::move(outline);
     return true;
   }
@@ -98,7 +126,7 @@ class Pruning {
     });
     for (const OutlineRun& run : runs) {
       if (run.seen > kTriedUpTo * cost_) return false;
-      if (!outlines_[b].tried.emplace(run.first, run.last).second) continue;
+      if (!tried_[b].emplace(run.first, run.last).second) continue;
       if (acceptIfLower({{b, cutWithout(b, run)}})) return true;
       Trials face = cutWithoutFace(b, run);
       if (face.size() > 1 && acceptIfLower(std::move(face))) return true;
@@ -108,9 +136,8 @@ class Pruning {
 
   Outline cutWithout(std::size_t b, const OutlineRun& run) const {
     Outline trial = outlines_[b];
-    std::fill(trial.tied.begin() + static_cast<std::ptrdiff_t>(run.first),
-              trial.tied.begin() + static_cast<std::ptrdiff_t>(run.last) + 1, char{1});
-    cut(trial);
+    for (std::size_t e = run.first; e <= run.last; ++e) trial.cut.tie(e);
+    cutAgain(blocks_[b].terms, trial);
     return trial;
   }
 
@@ -134,34 +161,65 @@ class Pruning {
     return trials;
   }
 
+  // The block and the one above it as one; what is tied in both stays so.
+  Outline cutMerged(std::size_t b, const CellTerms& terms) const {
+    Outline merged{LabelCut(plan_, terms, gap_), {}, 0.0, {}};
+    for (std::size_t e = 0; e < plan_.edges.size(); ++e) {
+      if (outlines_[b].cut.tied(e) && outlines_[b + 1].cut.tied(e)) merged.cut.tie(e);
+    }
+    cutAgain(terms, merged);
+    return merged;
+  }
+
+  // F with one outline in place of that of a block and the one above it.
+  double objectiveOfMerge(std::size_t b, const Outline& merged) const {
+    Stack stack = stackOf({});
+    std::vector<double> joints = joints_;
+    stack[b] = &merged;
+    stack.erase(stack.begin() + static_cast<std::ptrdiff_t>(b) + 1);
+    joints.erase(joints.begin() + static_cast<std::ptrdiff_t>(b) + 1);
+    for (const std::size_t joint : {b, b + 1}) joints[joint] = jointOf(stack, joint);
+    return objectiveOf(stack, joints);
+  }
+
   // The merge of two neighbours with the least F, if that is no higher: of equals one block is the
   // simpler description.
   bool mergeBlocks() {
     double best = objective_ + kLeastGain * cost_;
-    std::size_t best_lower = SIZE_MAX;
-    Outline best_outline;
+    std::size_t lower = SIZE_MAX;
+    Trials best_outline;
     for (std::size_t b = 0; b + 1 < outlines_.size(); ++b) {
-      Outline merged = outlines_[b];
-      const Outline& upper = outlines_[b + 1];
-      merged.block.last_bin = upper.block.last_bin;
-      merged.block.terms.add(upper.block.terms);
-      for (std::size_t e = 0; e < merged.tied.size(); ++e) {
-        merged.tied[e] = merged.tied[e] != 0 && upper.tied[e] != 0 ? 1 : 0;
-      }
-      merged.tried.clear();
-      cut(merged);
-      const double objective = objectiveOf({{b, merged}}, b + 1);
+      Outline merged = cutMerged(b, termsOfMerge(b));
+      const double objective = objectiveOfMerge(b, merged);
       if (objective >= best) continue;
       best = objective;
-      best_lower = b;
-      best_outline = std::move(merged);
+      lower = b;
+      best_outline.clear();
+      best_outline.emplace(b, std::move(merged));
     }
-    if (best_lower == SIZE_MAX) return false;
+    if (lower == SIZE_MAX) return false;
     objective_ = best;
-    outlines_[best_lower] = std::move(best_outline);
-    outlines_.erase(outlines_.begin() + static_cast<std::ptrdiff_t>(best_lower) + 1);
-    dropRuns(best_lower);
+    takeMerge(lower, std::move(best_outline.at(lower)));
+    dropRuns(lower);
     return true;
+  }
+
+  CellTerms termsOfMerge(std::size_t b) const {
+    CellTerms terms = blocks_[b].terms;
+    terms.add(blocks_[b + 1].terms);
+    return terms;
+  }
+
+  void takeMerge(std::size_t b, Outline merged) {
+    const auto upper = static_cast<std::ptrdiff_t>(b) + 1;
+    blocks_[b].terms = termsOfMerge(b);
+    blocks_[b].last_bin = blocks_[b + 1].last_bin;
+    outlines_[b] = std::move(merged);
+    tried_[b].clear();
+    blocks_.erase(blocks_.begin() + upper);
+    outlines_.erase(outlines_.begin() + upper);
+    tried_.erase(tried_.begin() + upper);
+    measureJoints();
   }
 
   // Area that each line shows in all blocks; negative: it bounds nothing.
@@ -196,10 +254,10 @@ class Pruning {
       });
       if (!used) continue;
       Outline trial = outlines_[b];
-      for (std::size_t e = 0; e < trial.tied.size(); ++e) {
-        if (static_cast<std::size_t>(plan_.edges[e].line) == line) trial.tied[e] = 1;
+      for (std::size_t e = 0; e < plan_.edges.size(); ++e) {
+        if (static_cast<std::size_t>(plan_.edges[e].line) == line) trial.cut.tie(e);
       }
-      cut(trial);
+      cutAgain(blocks_[b].terms, trial);
       trials.emplace(b, std::move(trial));
     }
     if (!trials.empty()) acceptIfLower(std::move(trials));
@@ -209,7 +267,10 @@ class Pruning {
   double gap_;
   double cost_;
   bool may_vanish_;
-  std::vector<Outline> outlines_;
+  std::vector<CellBlock>& blocks_;
+  std::vector<Outline> outlines_;                                     // of each block
+  std::vector<std::set<std::pair<std::size_t, std::size_t>>> tried_;  // runs that earn their cost
+  std::vector<double> joints_;  // below each block, and above the last
   double objective_ = 0.0;
 };
 
@@ -218,7 +279,7 @@ class Pruning {
 void pruneOutlines(const LineArrangement& plan, double gap, double cost,
                    std::vector<CellBlock>& blocks, bool may_vanish) {
   if (!(cost > 0.0) || blocks.empty()) return;
-  blocks = Pruning(plan, gap, cost, may_vanish, blocks).run();
+  Pruning(plan, gap, cost, may_vanish, blocks).run();
   for (CellBlock& block : blocks) block.measureCoverage();
 }
 

@@ -46,7 +46,7 @@ CellBlock joined(const LineArrangement& plan, double gap, const std::vector<Cell
   CellBlock one = blocks.front();
   for (std::size_t b = 1; b < blocks.size(); ++b) one.terms.add(blocks[b].terms);
   one.last_bin = blocks.back().last_bin;
-  one.energy = minimumCut(plan, one.terms, gap, {}, one.inside);
+  one.energy = minimumCut(plan, one.terms, gap, one.inside);
   one.measureCoverage();
   return one;
 }

@@ -44,6 +44,8 @@ class VoteTable {
     low_ = -radius - bin_;
     bins_ = static_cast<int>(2.0 * (radius + bin_) / bin_) + 2;
     votes_.assign(angles_.size() * static_cast<std::size_t>(bins_), 0);
+    peaks_.resize(angles_.size());
+    changed_.assign(angles_.size(), 1);
     for (const double angle : angles_) {
       normals_.emplace_back(std::cos(angle), std::sin(angle));
     }
@@ -54,6 +56,7 @@ class VoteTable {
       if (normals_[a].dot(p.normal) < std::cos(kVoteAngle)) continue;
       votes_[a * static_cast<std::size_t>(bins_) +
              static_cast<std::size_t>(binOf(normals_[a].dot(p.position)))] += amount;
+      changed_[a] = 1;
     }
   }
 
@@ -64,21 +67,20 @@ class VoteTable {
   };
 
   // The window with most votes. What was struck out does not count.
-  Peak strongest() const {
+  Peak strongest() {
     Peak best;
     for (std::size_t a = 0; a < angles_.size(); ++a) {
-      const int* row = votes_.data() + a * static_cast<std::size_t>(bins_);
-      int sum = 0;
-      for (int b = 0; b < bins_; ++b) {
-        sum += row[b];
-        if (b >= window_) sum -= row[b - window_];
-        if (sum > best.votes && !struckOut(a, b - window_ / 2)) best = {a, b - window_ / 2, sum};
-      }
+      if (changed_[a] != 0) peaks_[a] = strongestOf(a);
+      changed_[a] = 0;
+      if (peaks_[a].votes > best.votes) best = peaks_[a];
     }
     return best;
   }
 
-  void strikeOut(const Peak& peak) { struck_.push_back(peak); }
+  void strikeOut(const Peak& peak) {
+    struck_.push_back(peak);
+    changed_[peak.angle] = 1;
+  }
 
   WallLine lineAt(const Peak& peak) const {
     // The mean offset of the window's votes, not its middle.
@@ -100,6 +102,17 @@ class VoteTable {
   int binOf(double offset) const {
     return std::clamp(static_cast<int>((offset - low_) / bin_), 0, bins_ - 1);
   }
+  Peak strongestOf(std::size_t a) const {
+    Peak best;
+    const int* row = votes_.data() + a * static_cast<std::size_t>(bins_);
+    int sum = 0;
+    for (int b = 0; b < bins_; ++b) {
+      sum += row[b];
+      if (b >= window_) sum -= row[b - window_];
+      if (sum > best.votes && !struckOut(a, b - window_ / 2)) best = {a, b - window_ / 2, sum};
+    }
+    return best;
+  }
   bool struckOut(std::size_t angle, int bin) const {
     return std::any_of(struck_.begin(), struck_.end(), [&](const Peak& p) {
       return p.angle == angle && std::abs(p.bin - bin) <= 1;
@@ -113,6 +126,8 @@ class VoteTable {
   double low_ = 0.0;
   int bins_ = 0;
   std::vector<int> votes_;
+  std::vector<Peak> peaks_;    // of each angle
+  std::vector<char> changed_;  // angles whose peak is to be found again
   std::vector<Peak> struck_;
 };
 

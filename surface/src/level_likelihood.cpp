@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace storey::detail {
 namespace {
@@ -13,6 +14,7 @@ constexpr double kStrayCap = 0.1;       // share of the points that lie elsewher
 constexpr double kClear = 10.0;         // log-likelihood: a level that is really there
 constexpr double kBlur = 3.0;           // noise deviations: within, before and beyond mix
 constexpr double kReach = 8.0;          // noise deviations: beyond, a step is 0 or 1
+constexpr double kCapReach = 12.0;      // noise deviations: beyond, a bell is 0 to rounding
 constexpr double kTailFactor = 5.0;  // noise of the points of heavy tails over that of the others
 constexpr double kTailReach = 15.0;  // noise deviations that they reach
 constexpr double kClearRise = 4.0;   // deviations: a density that really changes with height
@@ -76,6 +78,22 @@ struct TailCount {
   }
 };
 
+// The logarithm of a product of many factors, with few calls of the logarithm.
+class LogProduct {
+ public:
+  void multiply(double factor) {  // within 1e-100 and 1e100
+    product_ *= factor;
+    if (product_ > 1e-200 && product_ < 1e200) return;
+    sum_ += std::log(product_);
+    product_ = 1.0;
+  }
+  double log() const { return sum_ + std::log(product_); }
+
+ private:
+  double sum_ = 0.0;
+  double product_ = 1.0;
+};
+
 // Heights of points of walls that end at one level. Those of walls that start there come mirrored.
 class StepLikelihood {
  public:
@@ -92,13 +110,13 @@ class StepLikelihood {
     const double reach = step_.reach() * step_.noise;
     const auto first = std::lower_bound(heights_.begin(), heights_.end(), z - reach);
     const auto last = std::upper_bound(first, heights_.end(), z + reach);
-    double sum = count(heights_.begin(), heights_.end()) *
-                     std::log(lengthOf(low_, high_) / lengthSeen(z, stray)) +
-                 count(last, heights_.end()) * std::log(stray);
+    LogProduct near;
     for (auto zi = first; zi != last; ++zi) {
-      sum += std::log((1.0 - stray) * step_.at((z - *zi) / step_.noise) + stray);
+      near.multiply((1.0 - stray) * step_.at((z - *zi) / step_.noise) + stray);
     }
-    return sum;
+    return count(heights_.begin(), heights_.end()) *
+               std::log(lengthOf(low_, high_) / lengthSeen(z, stray)) +
+           count(last, heights_.end()) * std::log(stray) + near.log();
   }
 
   // Fisher's. The density comes from the same points, which costs the second term.
@@ -183,32 +201,44 @@ class StepLikelihood {
 // Heights of the points of level faces: most lie at the level, the others anywhere in the window.
 class CapLikelihood {
  public:
-  CapLikelihood(const std::vector<double>& heights, double window, double noise)
-      : heights_(heights), window_(window), noise_(noise) {}
+  CapLikelihood(std::vector<double> heights, double window, double noise)
+      : heights_(std::move(heights)), window_(window), noise_(noise) {
+    std::sort(heights_.begin(), heights_.end());
+  }
 
   double at(double z) const {
-    double sum = 0.0;
-    for (const double zi : heights_) {
-      sum += std::log(ratio(zi - z) + kStrayCap);
-    }
-    return sum;
+    const auto [first, last] = near(z);
+    LogProduct product;
+    for (auto zi = first; zi != last; ++zi) product.multiply(ratio(*zi - z) + kStrayCap);
+    return product.log() +
+           (count(heights_.begin(), heights_.end()) - count(first, last)) * std::log(kStrayCap);
   }
 
   double information(double z) const {
+    const auto [first, last] = near(z);
     double sum = 0.0;
-    for (const double zi : heights_) {
-      sum += ratio(zi - z) / (ratio(zi - z) + kStrayCap) / (noise_ * noise_);
+    for (auto zi = first; zi != last; ++zi) {
+      sum += ratio(*zi - z) / (ratio(*zi - z) + kStrayCap) / (noise_ * noise_);
     }
     return sum;
   }
 
  private:
+  using Heights = std::vector<double>;
+
+  // Those that a face at this height can have: the density of the others is 0 to rounding.
+  std::pair<Heights::const_iterator, Heights::const_iterator> near(double z) const {
+    const double reach = kCapReach * noise_;
+    const auto first = std::lower_bound(heights_.begin(), heights_.end(), z - reach);
+    return {first, std::upper_bound(first, heights_.end(), z + reach)};
+  }
+
   // Density of a point of the face over that of one from anywhere.
   double ratio(double off) const {
     return (1.0 - kStrayCap) * bellAt(off / noise_) * window_ / noise_;
   }
 
-  const std::vector<double>& heights_;
+  Heights heights_;  // ascending
   double window_;
   double noise_;
 };

@@ -57,7 +57,7 @@ inline CellBlock blockOf(const LineArrangement& plan, const std::vector<double>&
     block.terms.signed_area.push_back(shares[e] * area);
   }
   block.terms.unary.assign(plan.cells.size(), 0.0);
-  block.energy = detail::minimumCut(plan, block.terms, kGap, {}, block.inside);
+  block.energy = detail::minimumCut(plan, block.terms, kGap, block.inside);
   block.measureCoverage();
   return block;
 }

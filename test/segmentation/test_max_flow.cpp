@@ -4,10 +4,15 @@
 #include <storey/segmentation/max_flow.h>
 
 #include <algorithm>
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/edmonds_karp_max_flow.hpp>
+#include <boost/range/iterator_range.hpp>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <numeric>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -67,6 +72,11 @@ SmallGraph randomGraph(std::mt19937& random) {
   return graph;
 }
 
+struct GridEdge {
+  std::size_t i, j;
+  Capacity capacity, reverse;
+};
+
 TEST(MaxFlow, EqualsTheCheapestOfAllCuts) {
   std::mt19937 random(1);
   for (int round = 0; round < 500; ++round) {
@@ -85,6 +95,82 @@ TEST(MaxFlow, EqualsTheCheapestOfAllCuts) {
     }
     EXPECT_EQ(value, graph.minCut());
     EXPECT_EQ(value, graph.cutOf(in_source));
+  }
+}
+
+// Boost's flow over a grid of the size of a plan, whose paths are long; capacities repeat, so that
+// there are many minimum cuts.
+std::pair<Capacity, std::vector<bool>> flowByBoost(std::size_t nodes,
+                                                   const std::vector<GridEdge>& edges,
+                                                   const std::vector<Capacity>& terminal) {
+  using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
+  using Graph = boost::adjacency_list<
+      boost::vecS, boost::vecS, boost::directedS, boost::no_property,
+      boost::property<
+          boost::edge_capacity_t, Capacity,
+          boost::property<boost::edge_residual_capacity_t, Capacity,
+                          boost::property<boost::edge_reverse_t, Traits::edge_descriptor>>>>;
+  Graph graph(nodes + 2);
+  const auto add = [&graph](std::size_t i, std::size_t j, Capacity capacity, Capacity reverse) {
+    const auto arc = boost::add_edge(i, j, capacity, graph).first;
+    const auto back = boost::add_edge(j, i, reverse, graph).first;
+    put(boost::edge_reverse, graph, arc, back);
+    put(boost::edge_reverse, graph, back, arc);
+  };
+  for (const GridEdge& edge : edges) add(edge.i, edge.j, edge.capacity, edge.reverse);
+  for (std::size_t v = 0; v < nodes; ++v) {
+    if (terminal[v] > 0) add(nodes, v, terminal[v], 0);
+    if (terminal[v] < 0) add(v, nodes + 1, -terminal[v], 0);
+  }
+  const Capacity value = boost::edmonds_karp_max_flow(graph, nodes, nodes + 1);
+  std::vector<bool> reached(nodes + 2, false);  // from the source: the smallest minimum cut
+  std::vector<std::size_t> open = {nodes};
+  reached[nodes] = true;
+  while (!open.empty()) {
+    const std::size_t v = open.back();
+    open.pop_back();
+    for (const auto& arc : boost::make_iterator_range(out_edges(v, graph))) {
+      if (get(boost::edge_residual_capacity, graph, arc) == 0 || reached[target(arc, graph)]) {
+        continue;
+      }
+      reached[target(arc, graph)] = true;
+      open.push_back(target(arc, graph));
+    }
+  }
+  return {value, reached};
+}
+
+TEST(MaxFlow, EqualsEdmondsKarpOnGridsAndContinuesWhenCapacitiesRise) {
+  std::mt19937 random(9);
+  for (int round = 0; round < 40; ++round) {
+    const auto side = static_cast<std::size_t>(uniform(random, 2, 24));
+    const std::size_t nodes = side * side;
+    MaxFlow flow(nodes);
+    std::vector<GridEdge> edges;
+    std::vector<Capacity> terminal(nodes, 0);
+    const auto addEdge = [&](std::size_t i, std::size_t j) {
+      edges.push_back({i, j, uniform(random, 0, 5), uniform(random, 0, 5)});
+      flow.addEdge(i, j, edges.back().capacity, edges.back().reverse);
+    };
+    for (std::size_t v = 0; v < nodes; ++v) {
+      if (v % side != 0) addEdge(v - 1, v);
+      if (v >= side) addEdge(v - side, v);
+    }
+    Capacity direct = 0;
+    for (int step = 0; step < 4; ++step) {
+      for (std::size_t k = 0; k < nodes / 2; ++k) {
+        const auto v = static_cast<std::size_t>(uniform(random, 0, static_cast<int>(nodes) - 1));
+        const Capacity more = uniform(random, -20, 20);
+        flow.addTerminalCapacities(v, std::max<Capacity>(more, 0), std::max<Capacity>(-more, 0));
+        if (terminal[v] * more < 0) direct += std::min(std::abs(terminal[v]), std::abs(more));
+        terminal[v] += more;
+      }
+      const auto i = static_cast<std::size_t>(uniform(random, 0, static_cast<int>(nodes) - 1));
+      addEdge(i, (i * 7 + 3) % nodes);
+      const auto [value, reached] = flowByBoost(nodes, edges, terminal);
+      EXPECT_EQ(flow.solve(), value + direct);
+      for (std::size_t v = 0; v < nodes; ++v) ASSERT_EQ(flow.inSourceSide(v), reached[v]);
+    }
   }
 }
 

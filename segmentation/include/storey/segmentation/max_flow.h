@@ -10,12 +10,15 @@ namespace storey {
 /// Maximum flow, and with it a minimum cut, between two terminals (the method of Boykov and
 /// Kolmogorov). Capacities are integers, so that sums are exact and a result can be repeated; the
 /// sum of all of them must fit into `Capacity`. Nodes are numbered 0 .. n-1; the terminals have no
-/// numbers.
+/// numbers. Capacities may be added after `solve`, too: the next one continues from the flow found.
 class MaxFlow {
  public:
   using Capacity = std::int64_t;
 
   explicit MaxFlow(std::size_t num_nodes);
+
+  /// Makes room for so many edges.
+  void reserve(std::size_t num_edges) { arcs_.reserve(2 * num_edges); }
 
   /// Adds to the capacities of the arcs source -> node and node -> sink (both >= 0). In terms of
   /// a cut: the node pays `from_source` when it is on the sink's side, `to_sink` otherwise.
@@ -31,19 +34,59 @@ class MaxFlow {
 
   /// Where the node is in the minimum cut that `solve` found. Among several minimum cuts that with
   /// the fewest nodes on the source's side.
-  bool inSourceSide(std::size_t node) const { return in_source_side_[node]; }
+  bool inSourceSide(std::size_t node) const { return nodes_[node].tree == Tree::kSource; }
 
  private:
-  struct Edge {
-    std::size_t from;
-    std::size_t to;
-    Capacity capacity;
-    Capacity reverse_capacity;
+  using Index = std::int32_t;
+  static constexpr Index kNone = -1;  // no arc
+  static constexpr Index kTerminal =
+      -2;  // in place of the arc to the parent: child of the terminal
+
+  enum class Tree : std::int8_t { kFree, kSource, kSink };
+
+  struct Node {
+    Capacity terminal = 0;  // residual, > 0: from the source, < 0: to the sink
+    Index first = kNone;    // of its arcs
+    Index parent = kNone;   // arc to the parent
+    Index distance = 0;     // from the terminal, at most, as of the time below
+    std::uint32_t time = 0;
+    Tree tree = Tree::kFree;
+    bool active = false;
   };
-  std::vector<Edge> edges_;
-  std::vector<Capacity> from_source_;
-  std::vector<Capacity> to_sink_;
-  std::vector<bool> in_source_side_;
+  struct Arc {
+    Capacity residual;
+    Index head;
+    Index next;  // of the same tail
+  };
+
+  void addArc(std::size_t tail, std::size_t head, Capacity capacity);
+  void plantTrees();
+  void activate(Index node);
+  Index grow(Index node);
+  void augment(Index middle);
+  Capacity narrowest(Index middle) const;
+  void push(Index node, Index towards, Capacity flow);
+  void orphan(Index node);
+  void adopt(Index node);
+  void abandon(Index node);
+  Index rootDistance(Index node);
+
+  // Residual capacity between a node of a tree and the head of one of its arcs, in the direction
+  // away from the source or towards the sink.
+  Capacity outwards(Index arc, Tree tree) const {
+    return arcs_[static_cast<std::size_t>(tree == Tree::kSource ? arc : arc ^ 1)].residual;
+  }
+  Node& at(Index node) { return nodes_[static_cast<std::size_t>(node)]; }
+  const Node& at(Index node) const { return nodes_[static_cast<std::size_t>(node)]; }
+  Arc& arc(Index index) { return arcs_[static_cast<std::size_t>(index)]; }
+  const Arc& arc(Index index) const { return arcs_[static_cast<std::size_t>(index)]; }
+
+  std::vector<Node> nodes_;
+  std::vector<Arc> arcs_;  // the reverse of arc a is a ^ 1
+  std::vector<Index> active_;
+  std::vector<Index> orphans_;
+  std::uint32_t time_ = 0;  // number of augmentations
+  Capacity flow_ = 0;
 };
 
 }  // namespace storey

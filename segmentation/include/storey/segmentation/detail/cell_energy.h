@@ -3,6 +3,7 @@
 
 #include <storey/segmentation/detail/line_arrangement.h>
 #include <storey/segmentation/detail/wall_evidence.h>
+#include <storey/segmentation/max_flow.h>
 
 #include <cstddef>
 #include <vector>
@@ -45,11 +46,31 @@ std::vector<CellTerms> termsOfLayers(const LineArrangement& plan, const WallEvid
 double energyOf(const LineArrangement& plan, const CellTerms& terms, double gap,
                 const std::vector<char>& inside);
 
-/// The labelling of least energy, by a minimum cut. Cells at the border are outside. Of the
-/// labellings with the least energy it is the one with the fewest cells inside. \param tied edges
-/// that must not separate inside from outside, one an edge; empty: none \param inside one a cell
+/// The labelling of least energy, by a minimum cut, and those of least energy that do without some
+/// walls. Cells at the border are outside. Of the labellings with the least energy it is the one
+/// with the fewest cells inside.
+class LabelCut {
+ public:
+  /// \param gap cost of a wall where no points are, of its area
+  LabelCut(const LineArrangement& plan, const CellTerms& terms, double gap);
+
+  /// From now on the edge must not separate inside from outside. Only what changes is solved again.
+  void tie(std::size_t edge);
+  bool tied(std::size_t edge) const { return tied_[edge] != 0; }
+
+  /// \return of each cell: whether it is inside
+  std::vector<char> solve();
+
+ private:
+  const LineArrangement* plan_;
+  std::vector<char> tied_;
+  MaxFlow flow_;
+  MaxFlow::Capacity forbidden_ = 0;  // more than any labelling without ties costs
+};
+
+/// The labelling of least energy. \param gap as in `LabelCut` \param inside one a cell
 /// \return its energy
 double minimumCut(const LineArrangement& plan, const CellTerms& terms, double gap,
-                  const std::vector<char>& tied, std::vector<char>& inside);
+                  std::vector<char>& inside);
 
 }  // namespace storey::detail

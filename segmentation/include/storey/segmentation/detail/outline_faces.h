@@ -26,6 +26,10 @@ struct BlockOutline {
   const std::vector<OutlineRun>* runs;
 };
 
+/// Number of walls of a stack, given the runs of each block: those of neighbouring blocks that meet
+/// are one, and a run may go on in several of the next block, and several in one.
+std::size_t countWalls(const std::vector<const std::vector<OutlineRun>*>& blocks);
+
 /// Number of faces of the solid that stands on the outlines, bottom to top: the runs, those of
 /// neighbouring blocks that meet being one, and the connected parts of what one block covers and
 /// its neighbour does not.
@@ -37,5 +41,10 @@ std::size_t countFloating(const LineArrangement& plan, const std::vector<BlockOu
 /// What a stack of outlines costs to describe, in faces: `countFaces`, and more for each part that
 /// floats, which no building has.
 double complexityOf(const LineArrangement& plan, const std::vector<BlockOutline>& blocks);
+
+/// The part of `complexityOf` that two neighbouring blocks alone decide, all but the walls.
+/// \param lower, upper their labels; null: there is no block
+double jointComplexity(const LineArrangement& plan, const std::vector<char>* lower,
+                       const std::vector<char>* upper);
 
 }  // namespace storey::detail
