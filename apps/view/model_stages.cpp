@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "io/failure.h"
@@ -88,7 +87,7 @@ class FaceColours {
     if (stage_ == Stage::Support) return sequentialColour(face.coverage);
     if (stage_ == Stage::Deviation) {
       if (!std::isfinite(face.deviation)) return kNoLabel;
-      return sequentialColour(face.deviation / largest_);
+      return sequentialColour(largest_ > 0.0 ? face.deviation / largest_ : 0.0);
     }
     const Colour colour = shaded(baseColour(face), normalOf(model_, face));
     if (face.label != FaceLabel::Roof || !(height_ > 0.0)) return colour;
@@ -99,7 +98,7 @@ class FaceColours {
   void addScale(Drawing& drawing) const {
     if (stage_ == Stage::Support) addSequentialBar(drawing, "share with points", 1.0);
     if (stage_ != Stage::Deviation) return;
-    addSequentialBar(drawing, "st. dev. (length)", largest_);
+    if (largest_ > 0.0) addSequentialBar(drawing, "st. dev. (length)", largest_);
     drawing.legend.push_back({kNoLabel, "not known"});
   }
 
@@ -108,7 +107,7 @@ class FaceColours {
   Stage stage_;
   double lowest_ = 0.0;
   double height_ = 0.0;
-  double largest_ = std::numeric_limits<double>::min();  // > 0, as a bar needs it
+  double largest_ = 0.0;  // deviation
 };
 
 FacetSet facetsOf(const Reconstruction& r, const PolyhedralModel& model,

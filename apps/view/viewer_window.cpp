@@ -10,8 +10,9 @@
 #include <vtkTextProperty.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <filesystem>
+#include <thread>
 
 #include "io/failure.h"
 #include "view/annotations.h"
@@ -63,6 +64,15 @@ ViewerWindow::ViewerWindow(const Reconstruction& reconstruction, ViewerState sta
   draw();
 }
 
+// A loop of our own: VTK 9.1 asks its display for events once more after the end of its own loop.
+void ViewerWindow::run() {
+  constexpr std::chrono::milliseconds kPause(10);
+  while (!closed_) {
+    interactor_->ProcessEvents();
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
 void ViewerWindow::prepare(const PictureSize& size) {
   constexpr double kMostOfScreen = 0.9;
   window_->SetDPI(72);          // a font size is its pixels
@@ -86,7 +96,9 @@ void ViewerWindow::prepare(const PictureSize& size) {
   interactor_->SetRenderWindow(window_);
   vtkNew<MouseStyle> style;
   style->window = this;
+  style->AddObserver(vtkCommand::EndInteractionEvent, this, &ViewerWindow::noteMove);
   interactor_->SetInteractorStyle(style);
+  interactor_->AddObserver(vtkCommand::ExitEvent, this, &ViewerWindow::close);
   interactor_->Initialize();
 }
 
@@ -112,6 +124,7 @@ void ViewerWindow::prepareSlider() {
   slider_widget_->SetDefaultRenderer(controls_);
   slider_widget_->SetRepresentation(slider_);
   slider_widget_->SetAnimationModeToJump();
+  slider_widget_->KeyPressActivationOff();  // else it takes the key i
   slider_widget_->AddObserver(vtkCommand::InteractionEvent, this, &ViewerWindow::moveToSlider);
 }
 
@@ -129,7 +142,7 @@ void ViewerWindow::press(char key) {
       save();
       break;
     case ViewerState::Action::Close:
-      interactor_->TerminateApp();
+      close();
       break;
     default:
       window_->Render();
@@ -168,10 +181,10 @@ void ViewerWindow::draw() {
   if (!bounds.empty()) {
     const Layout layout = place();
     lines_ = addScene(*scene_, drawing_, layout, pixelsPerLength(layout, bounds));
-    if (!aimed_ || aimed_at_plan_ != isPlan(state_.stage())) aim();  // else as the user left it
+    if (!moved_ || aimed_at_plan_ != isPlan(state_.stage())) aim();  // else as the user left it
   }
   showSlider();
-  scene_->ResetCameraClippingRange();
+  scene_->ResetCameraClippingRange();  // where the camera stayed, the scene may be another
   window_->Render();
 }
 
@@ -181,7 +194,8 @@ void ViewerWindow::aim() {
   if (bounds.empty()) return;
   const Layout layout = place();
   aimCamera(*scene_, layout, projection, bounds, pixelsPerLength(layout, bounds));
-  aimed_ = true;
+  scene_->ResetCameraClippingRange();
+  moved_ = false;
   aimed_at_plan_ = isPlan(state_.stage());
 }
 

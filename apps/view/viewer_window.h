@@ -30,7 +30,7 @@ class ViewerWindow {
   ViewerWindow& operator=(const ViewerWindow&) = delete;
 
   /// Answers to the user until the window is closed.
-  void run() { interactor_->Start(); }
+  void run();
 
   /// What keys go through.
   void press(char key);
@@ -49,6 +49,8 @@ class ViewerWindow {
   void showSlider();
   void moveToSlider();
   void save();
+  void close() { closed_ = true; }
+  void noteMove() { moved_ = true; }
 
   const Reconstruction& reconstruction_;
   ViewerState state_;
@@ -56,8 +58,9 @@ class ViewerWindow {
   std::string status_;  // said in place of the keys until the next one
   Drawing drawing_;
   std::vector<vtkActor*> lines_;  // of the scene
+  bool moved_ = false;            // the camera, by the user: then it stays as it is
   bool aimed_at_plan_ = false;
-  bool aimed_ = false;
+  bool closed_ = false;
   vtkNew<vtkRenderWindow> window_;
   vtkNew<vtkRenderer> scene_;
   vtkNew<vtkRenderer> sheet_;     // writing, made anew for each frame

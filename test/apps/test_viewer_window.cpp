@@ -71,6 +71,7 @@ class ViewerWindowTest : public testing::Test {
     mouse(x0, y0, vtkCommand::LeftButtonPressEvent);
     mouse(x1, y1, vtkCommand::MouseMoveEvent);
     mouse(x1, y1, vtkCommand::LeftButtonReleaseEvent);
+    mouse(0.1, 0.5, vtkCommand::MouseMoveEvent);  // nothing there to light up
   }
 
   /// Bytes of a picture that the key for it writes.
@@ -116,19 +117,19 @@ TEST_F(ViewerWindowTest, TheSliderMovesTheSlice) {
   const std::string before = picture();
   drag(0.76, 0.07, 0.957, 0.07);  // from the middle of the slider to its end
   EXPECT_EQ(window_->state().step(), 2);
-  EXPECT_NE(picture(), before);
-  drag(0.957, 0.07, 0.563, 0.07);
+  EXPECT_TRUE(picture() != before);
+  drag(0.94, 0.07, 0.563, 0.07);
   EXPECT_EQ(window_->state().step(), 0);
   key('+');
-  EXPECT_EQ(picture(), before);  // the slider stands where the key has put the slice
+  EXPECT_TRUE(picture() == before);  // the slider stands where the key has put the slice
 }
 
 TEST_F(ViewerWindowTest, TheMouseTurnsTheModelAndAKeyTurnsItBack) {
   const std::string before = picture();
   drag(0.4, 0.5, 0.5, 0.6);
-  EXPECT_NE(picture(), before);
+  EXPECT_TRUE(picture() != before);
   key('i');
-  EXPECT_EQ(picture(), before);
+  EXPECT_TRUE(picture() == before);
 }
 
 }  // namespace
