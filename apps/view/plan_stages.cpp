@@ -200,7 +200,7 @@ void addSegments(Drawing& drawing, const Reconstruction& r, const SliceRange& sl
   PointSet set;
   set.size = 5.0;
   LineSet segments;
-  segments.width = 2.0;
+  segments.width = 3.0;
   std::size_t num_regions = 0;
   for (const auto& [label, members] :
        regionsOf(readOfSlices(r, "07_regions.pcd", "label", total), slice)) {

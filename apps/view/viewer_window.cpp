@@ -159,8 +159,9 @@ Drawing ViewerWindow::makeCurrentDrawing() const {
   Drawing drawing;
   drawing.title = std::string("No picture of ") + infoOf(entry.stage).name;
   if (!entry.missing.empty()) {
-    drawing.subtitle = "there is no " + entry.missing +
-                       "; storey_reconstruct --intermediate leaves it, slices with --method paper";
+    const bool of_slices = entry.stage >= Stage::Slices && entry.stage <= Stage::Segments;
+    drawing.subtitle = "there is no " + entry.missing + "; storey_reconstruct --intermediate " +
+                       (of_slices ? "--method paper " : "") + "leaves it";
     return drawing;
   }
   try {

@@ -154,7 +154,7 @@ Drawing drawCells(const Reconstruction& r, std::optional<int> wanted) {
   drawing.subtitle = std::to_string(num_inside) + " of " + counted(plan.cells.size(), "cell") +
                      " inside, from z = " + shortNumber(z_min) + " to " + shortNumber(z_max);
   drawing.legend = {{kInside, "inside"}, {kOutside, "outside"}};
-  if (block > 0) drawing.legend.push_back({kBelow, "inside only in the block below"});
+  if (block > 0) drawing.legend.push_back({kBelow, "inside below only"});
   drawing.facets.push_back(std::move(cells));
   drawing.lines.push_back(std::move(edges));
   return drawing;

@@ -132,6 +132,11 @@ TEST_F(ViewerWindowTest, TheMouseTurnsTheModelAndAKeyTurnsItBack) {
   EXPECT_TRUE(picture() == before);
 }
 
+TEST_F(ViewerWindowTest, AKeyClosesIt) {
+  key('q');
+  window_->run();  // returns
+}
+
 }  // namespace
 }  // namespace storey::view
 
