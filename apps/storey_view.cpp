@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// storey_view DIRECTORY --pictures: pictures of what storey_reconstruct left in a directory.
+// storey_view DIRECTORY: what storey_reconstruct left in a directory, in a window or in pictures.
 #include <algorithm>
 #include <cstdio>
 
@@ -9,6 +9,7 @@
 #include "view/options.h"
 #include "view/render.h"
 #include "view/stages.h"
+#include "view/viewer_window.h"
 
 namespace storey::view {
 namespace {
@@ -20,7 +21,8 @@ struct Picture {
 };
 
 // In the order of the method; numbers as those of the files that they show.
-constexpr Picture kPictures[] = {{"02_confidence.png", Stage::Confidence, View::Isometric},
+constexpr Picture kPictures[] = {{"01_upright.png", Stage::Upright, View::Isometric},
+                                 {"02_confidence.png", Stage::Confidence, View::Isometric},
                                  {"03_directions.png", Stage::Directions, View::Isometric},
                                  {"04_slices.png", Stage::Slices, View::Isometric},
                                  {"05_normals.png", Stage::Normals, View::Isometric},
@@ -28,23 +30,22 @@ constexpr Picture kPictures[] = {{"02_confidence.png", Stage::Confidence, View::
                                  {"08_refined.png", Stage::Refined, View::Isometric},
                                  {"07_regions.png", Stage::Regions, View::Isometric},
                                  {"09_slice.png", Stage::Slice, View::Top},
+                                 {"09_segments.png", Stage::Segments, View::Top},
+                                 {"09_walls.png", Stage::Walls, View::Isometric},
+                                 {"09_cells.png", Stage::Cells, View::Top},
                                  {"09_floorplans.png", Stage::Floorplans, View::Isometric},
+                                 {"10_types.png", Stage::Types, View::Isometric},
                                  {"11_model.png", Stage::Model, View::Isometric},
                                  {"11_model_top.png", Stage::Model, View::Top},
+                                 {"11_support.png", Stage::Support, View::Isometric},
+                                 {"11_deviation.png", Stage::Deviation, View::Isometric},
                                  {"12_overlay.png", Stage::Overlay, View::Isometric}};
-
-std::string firstMissing(const Reconstruction& reconstruction, Stage stage) {
-  for (const std::string& name : filesOf(stage)) {
-    if (!reconstruction.has(name)) return name;
-  }
-  return {};
-}
 
 void writeAll(const Reconstruction& reconstruction, const PictureSize& size) {
   const PictureWriter writer(size);
   std::vector<std::string> written;
   for (const Picture& picture : kPictures) {
-    const std::string missing = firstMissing(reconstruction, picture.stage);
+    const std::string missing = missingFile(reconstruction, picture.stage);
     if (!missing.empty()) {
       std::fprintf(stderr, "%s left out: there is no %s\n", picture.file, missing.c_str());
       continue;
@@ -63,15 +64,26 @@ void writeAll(const Reconstruction& reconstruction, const PictureSize& size) {
 }
 
 void writeOne(const Reconstruction& reconstruction, const Options& options) {
-  const std::string missing = firstMissing(reconstruction, options.stage);
+  const std::string missing = missingFile(reconstruction, options.stage);
   if (!missing.empty()) {
     throw io::Failure(io::MissingInput, reconstruction.file(missing), "is not there",
                       "run storey_reconstruct with --intermediate");
   }
-  const View own = options.stage == Stage::Slice ? View::Top : View::Isometric;
+  const View own = isPlan(options.stage) ? View::Top : View::Isometric;
   const Drawing drawing =
       makeDrawing(reconstruction, options.stage, options.view.value_or(own), options.slice);
   PictureWriter(options.size).write(options.picture, drawing);
+}
+
+void showAll(const Reconstruction& reconstruction, const Options& options) {
+  std::vector<ViewerState::Entry> entries;
+  for (const StageInfo& info : allStages()) {
+    if (info.stage == Stage::Overlay) continue;  // a key lays the cloud over the model
+    entries.push_back({info.stage, missingFile(reconstruction, info.stage),
+                       countSteps(reconstruction, info.stage)});
+  }
+  ViewerState state(std::move(entries), options.stage, options.slice);
+  ViewerWindow(reconstruction, std::move(state), options.size).run();
 }
 
 int run(int argc, char** argv) {
@@ -80,8 +92,10 @@ int run(int argc, char** argv) {
   const Reconstruction reconstruction(options.directory);
   if (options.pictures) {
     writeAll(reconstruction, options.size);
-  } else {
+  } else if (!options.picture.empty()) {
     writeOne(reconstruction, options);
+  } else {
+    showAll(reconstruction, options);
   }
   return io::Ok;
 }

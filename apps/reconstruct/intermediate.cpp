@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 
+#include "stages/cell_file.h"
 #include "stages/floorplan_file.h"
+#include "stages/wall_file.h"
 
 namespace storey::reconstruct {
 namespace {
@@ -129,6 +131,9 @@ void writeFloorplanFiles(const io::OutputDirectory& directory, const Options& op
   floorplans.state = result.cloud.state;
   writeFloorplans(directory.file("09_floorplans.geojson"), floorplans);
   writeFloorplanLines(directory.file("09_floorplans.vtk"), floorplans.layers);
+  if (options.method == Method::Paper) return;  // it knows neither walls of all slices nor cells
+  writeWalls(directory.file("09_walls.geojson"), result.building.walls, result.cloud.state);
+  writeCells(directory.file("09_cells.geojson"), result.building, result.cloud.state);
 }
 
 }  // namespace

@@ -181,6 +181,7 @@ Json describeLayers(const Result& r) {
           {"lower_bound", d.labeling.lower_bound},
           {"optimal", d.labeling.optimal},
           {"slice_types", d.slice_types},
+          {"block_types", d.types},
           {"trade_off", trade_off},
           {"blocks", blocks}};
 }

@@ -1,100 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "view/annotations.h"
 
-#include <vtkActor2D.h>
-#include <vtkCellArray.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper2D.h>
-#include <vtkProperty2D.h>
-#include <vtkTextActor.h>
-#include <vtkTextProperty.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "view/palette.h"
+#include "view/sheet.h"
 #include "view/stages.h"
 
 namespace storey::view {
 namespace {
 
-using Points = std::vector<Eigen::Vector2d>;
-
 // Sizes in a picture of 1600 x 1200.
 constexpr double kTitleFont = 34.0;
-constexpr double kFont = 21.0;
-constexpr double kLine = 30.0;  // from one line of the legend to the next
-constexpr double kMargin = 24.0;
-constexpr Colour kGrey{95, 95, 100};
-
-enum class Align { Left, Centre, Right };
-
-// Draws flat things onto a window, in its pixels.
-class Sheet {
- public:
-  Sheet(vtkRenderer& renderer, const Layout& layout) : renderer_(renderer), layout_(layout) {}
-
-  /// Text with its middle height at `at`, set smaller if it would be wider than `max_width`.
-  void text(const std::string& text, const Eigen::Vector2d& at, double font, double max_width,
-            Colour colour, Align align = Align::Left) {
-    vtkNew<vtkTextActor> actor;
-    actor->SetInput(text.c_str());
-    vtkTextProperty* const style = actor->GetTextProperty();
-    style->SetFontFamilyToArial();
-    style->SetColor(colour.r / 255.0, colour.g / 255.0, colour.b / 255.0);
-    style->SetVerticalJustificationToCentered();
-    style->SetJustification(align == Align::Left     ? VTK_TEXT_LEFT
-                            : align == Align::Centre ? VTK_TEXT_CENTERED
-                                                     : VTK_TEXT_RIGHT);
-    style->SetFontSize(static_cast<int>(std::lround(font * layout_.unit)));
-    double size[2] = {0.0, 0.0};
-    actor->GetSize(&renderer_, size);
-    if (size[0] > max_width) {
-      style->SetFontSize(static_cast<int>(font * layout_.unit * max_width / size[0]));
-    }
-    actor->SetPosition(at.x(), at.y());
-    renderer_.AddActor2D(actor);
-  }
-
-  void polygon(const Points& corners, Colour colour) { add(corners, colour, true, 1.0); }
-
-  void line(const Points& corners, Colour colour, double width) {
-    add(corners, colour, false, width);
-  }
-
-  void rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high, Colour colour) {
-    polygon({low, {high.x(), low.y()}, high, {low.x(), high.y()}}, colour);
-  }
-
- private:
-  void add(const Points& corners, Colour colour, bool filled, double width) {
-    vtkNew<vtkPoints> points;
-    vtkNew<vtkCellArray> cells;
-    cells->InsertNextCell(static_cast<int>(corners.size()));
-    for (const Eigen::Vector2d& p : corners) {
-      cells->InsertCellPoint(points->InsertNextPoint(p.x(), p.y(), 0.0));
-    }
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(points);
-    if (filled) {
-      data->SetPolys(cells);
-    } else {
-      data->SetLines(cells);
-    }
-    vtkNew<vtkPolyDataMapper2D> mapper;
-    mapper->SetInputData(data);
-    vtkNew<vtkActor2D> actor;
-    actor->SetMapper(mapper);
-    actor->GetProperty()->SetColor(colour.r / 255.0, colour.g / 255.0, colour.b / 255.0);
-    actor->GetProperty()->SetLineWidth(static_cast<float>(width * layout_.unit));
-    renderer_.AddActor2D(actor);
-  }
-
-  vtkRenderer& renderer_;
-  const Layout& layout_;
-};
 
 void addTitle(Sheet& sheet, const Layout& layout, const Drawing& drawing) {
   const double u = layout.unit;
@@ -165,7 +83,7 @@ void addAxes(Sheet& sheet, const Layout& layout, const Projection& projection) {
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector3d seen = projection.apply(Eigen::Vector3d::Unit(axis));
     if (std::abs(seen.z()) > 1.0 - kLeast * kLeast) {
-      Points ring;
+      std::vector<Eigen::Vector2d> ring;
       for (int k = 0; k <= 24; ++k) {
         const double angle = 2.0 * M_PI * k / 24.0;
         ring.push_back(origin + 9.0 * u * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
@@ -197,7 +115,10 @@ void addScaleBar(Sheet& sheet, const Layout& layout, const Projection& projectio
   sheet.line({{left, y + end}, {left, y - end}}, kDark, 2.5);
   sheet.line({{left, y}, {right, y}}, kDark, 2.5);
   sheet.line({{right, y + end}, {right, y - end}}, kDark, 2.5);
-  const std::string along = projection.shortening < 1.0 ? " along each axis" : "";
+  const bool oblique = projection.towards.cwiseAbs().maxCoeff() < 1.0 - 1e-9;
+  const std::string along = projection.shortening < 1.0 ? " along each axis"
+                            : oblique                   ? " across the line of sight"
+                                                        : "";
   sheet.text(detail::shortNumber(length) + along + " (unit of the cloud)", {left, y + 30.0 * u},
              kFont, layout.width - left, kDark);
 }

@@ -11,6 +11,7 @@ namespace storey::view::detail {
 namespace {
 
 constexpr std::size_t kBarColours = 128;
+constexpr double kLevel = 0.7;  // length in plan of a normal that is more up or down than aside
 constexpr std::size_t kMaxLegendEntries = 24;  // more do not fit beside the picture
 
 // Label of point i less 1, or none.
@@ -25,10 +26,6 @@ std::size_t countLabelled(const StageCloud& cloud) {
   return count;
 }
 
-void addSequentialBar(Drawing& drawing, const std::string& title, double high) {
-  drawing.bar = {title, sequentialColours(kBarColours), roundTicks(0.0, high)};
-}
-
 std::string azimuthText(double degrees) {
   char text[32];
   // Rounded first, and 0 added: "-0.0" would look like a direction of its own.
@@ -36,7 +33,45 @@ std::string azimuthText(double degrees) {
   return text;
 }
 
+// Of some points, as long as a fortieth of the cloud.
+LineSet normalSticks(const StageCloud& cloud) {
+  constexpr std::size_t kMaxSticks = 1500;
+  constexpr float kLength = 0.025f;
+  LineSet sticks;
+  sticks.width = 1.2;
+  if (cloud.positions.empty()) return sticks;
+  Eigen::Vector3f low = cloud.positions.front();
+  Eigen::Vector3f high = low;
+  for (const Eigen::Vector3f& p : cloud.positions) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const float length = kLength * (high - low).maxCoeff();
+  for (const std::size_t i : evenlySpaced(cloud.positions.size(), kMaxSticks)) {
+    const Eigen::Vector3f end = cloud.positions[i] + length * cloud.normals[i];
+    if (!end.allFinite()) continue;
+    sticks.lines.push_back({cloud.positions[i].cast<double>(), end.cast<double>()});
+    sticks.colours.push_back(kDark);
+  }
+  return sticks;
+}
+
 }  // namespace
+
+void addSequentialBar(Drawing& drawing, const std::string& title, double high) {
+  drawing.bar = {title, sequentialColours(kBarColours), roundTicks(0.0, high)};
+}
+
+void addAzimuthBar(Drawing& drawing) {
+  drawing.bar.title = "azimuth of the normal";
+  for (std::size_t i = 0; i < kBarColours; ++i) {
+    const double turns = (static_cast<double>(i) + 0.5) / static_cast<double>(kBarColours) - 0.5;
+    drawing.bar.colours.push_back(azimuthColour(2.0 * M_PI * turns));
+  }
+  for (const int degrees : {-180, -90, 0, 90, 180}) {
+    drawing.bar.ticks.push_back({(degrees + 180) / 360.0, std::to_string(degrees) + "\u00b0"});
+  }
+}
 
 Drawing drawConfidence(const Reconstruction& r, View view) {
   const StageCloud cloud = readStageCloud(r.file("02_confidence.pcd"), "intensity");
@@ -51,7 +86,7 @@ Drawing drawConfidence(const Reconstruction& r, View view) {
 Drawing drawDirections(const Reconstruction& r, Stage stage, View view) {
   const std::size_t n = r.report().azimuths.size();
   const bool labels = stage == Stage::Labels;
-  const StageCloud cloud = r.readLabels(filesOf(stage).front(), n);
+  const StageCloud cloud = r.readLabels(infoOf(stage).files.front(), n);
   Drawing drawing;
   drawing.title = labels ? "Directions after labelling in the slices" : "Dominant directions";
   addCloud(drawing, cloud, view, [&](std::size_t i) {
@@ -95,36 +130,28 @@ Drawing drawSlices(const Reconstruction& r, View view) {
   return drawing;
 }
 
-Drawing drawNormals(const Reconstruction& r, View view) {
-  const StageCloud cloud = readStageCloud(r.file("05_normals.pcd"), "");
-  const auto colour = [](double turns) { return fromHsv(turns, 0.8, 0.85); };
+Drawing drawNormals(const Reconstruction& r, Stage stage, View view) {
+  const StageCloud cloud = readStageCloud(r.file(infoOf(stage).files.front()), "");
   Drawing drawing;
-  drawing.title = "Smoothed normals";
+  drawing.title = stage == Stage::Upright ? "Upright cloud and its normals" : "Smoothed normals";
   addCloud(drawing, cloud, view, [&](std::size_t i) {
     const Eigen::Vector3d normal = cloud.normals[i].cast<double>();
-    if (!normal.allFinite() || normal.isZero()) return kNoLabel;
-    return colour(std::atan2(normal.y(), normal.x()) / (2.0 * M_PI));
+    if (!normal.allFinite() || normal.head<2>().norm() < kLevel) return kNoLabel;
+    return azimuthColour(std::atan2(normal.y(), normal.x()));
   });
-  drawing.bar.title = "azimuth of the normal";
-  for (std::size_t i = 0; i < kBarColours; ++i) {
-    drawing.bar.colours.push_back(
-        colour((static_cast<double>(i) + 0.5) / static_cast<double>(kBarColours) - 0.5));
-  }
-  for (const int degrees : {-180, -90, 0, 90, 180}) {
-    drawing.bar.ticks.push_back({(degrees + 180) / 360.0, std::to_string(degrees) + "\u00b0"});
-  }
+  addAzimuthBar(drawing);
+  drawing.legend = {{kDark, "normals, of some"}, {kNoLabel, "level, or no normal"}};
+  drawing.lines.push_back(normalSticks(cloud));
   return drawing;
 }
 
 Drawing drawRegions(const Reconstruction& r, View view) {
   const StageCloud cloud = r.readLabels("07_regions.pcd", 0);
-  constexpr std::size_t kColours = 12;
-  constexpr std::size_t kStep = 5;  // regions come slice by slice: neighbours far apart in hue
   Drawing drawing;
   drawing.title = "Edge regions";
   addCloud(drawing, cloud, view, [&](std::size_t i) {
     const std::optional<std::size_t> region = labelOf(cloud, i);
-    return region ? distinctColour(*region * kStep % kColours, kColours) : kNoLabel;
+    return region ? regionColour(*region) : kNoLabel;
   });
   double num_regions = 0.0;
   for (const double label : cloud.values) num_regions = std::max(num_regions, label);

@@ -20,8 +20,9 @@ inline bool operator==(const Colour& a, const Colour& b) {
 }
 
 /// Where a drawing is seen from, in parallel projection: from the south-east above with all three
-/// axes shortened alike, from above (north up), from the south.
-enum class View { Isometric, Top, Front };
+/// axes shortened alike, from above (north up), from the south; or free: isometric until someone
+/// turns it, and so that nothing drawn depends on where it is seen from.
+enum class View { Isometric, Top, Front, Free };
 
 struct PointSet {
   std::vector<Eigen::Vector3f> positions;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The model alone, and over the cloud.
+// The model, and the cloud over it.
+#include <storey/segmentation/detail/union_find.h>
 #include <storey/surface/triangulation.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "io/failure.h"
@@ -55,16 +57,6 @@ Eigen::Vector3d normalOf(const PolyhedralModel& model, const PolyhedralFace& fac
   return sum.normalized();
 }
 
-// A fixed light, so that a wall looks the same from every side: from the south-south-east, high.
-Colour shaded(Colour colour, const Eigen::Vector3d& normal) {
-  constexpr double kAmbient = 0.62;
-  const Eigen::Vector3d to_light = Eigen::Vector3d(0.35, -0.75, 1.1).normalized();
-  const double light =
-      std::min(1.0, kAmbient + (1.0 - kAmbient) * 1.2 * std::max(0.0, normal.dot(to_light)));
-  const auto dim = [&](std::uint8_t c) { return static_cast<std::uint8_t>(light * c); };
-  return {dim(colour.r), dim(colour.g), dim(colour.b)};
-}
-
 // Roofs of different heights must differ also where they are seen from above.
 Colour raised(Colour colour, double share_of_height) {
   constexpr double kMost = 0.35;  // of the way to white, at the top
@@ -74,51 +66,105 @@ Colour raised(Colour colour, double share_of_height) {
   return {raise(colour.r), raise(colour.g), raise(colour.b)};
 }
 
-FacetSet facetsOf(const Reconstruction& r, const PolyhedralModel& model) {
+// The colours of a model's faces, by what they are, by what was seen of them or by how far off they
+// may be; and what they mean.
+class FaceColours {
+ public:
+  FaceColours(const PolyhedralModel& model, Stage stage) : model_(model), stage_(stage) {
+    const auto lower = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      return a.z() < b.z();
+    };
+    const auto [low, high] =
+        std::minmax_element(model.vertices.begin(), model.vertices.end(), lower);
+    lowest_ = low->z();
+    height_ = high->z() - low->z();
+    for (const PolyhedralFace& face : model.faces) {
+      if (std::isfinite(face.deviation)) largest_ = std::max(largest_, face.deviation);
+    }
+  }
+
+  Colour operator()(const PolyhedralFace& face) const {
+    if (stage_ == Stage::Support) return sequentialColour(face.coverage);
+    if (stage_ == Stage::Deviation) {
+      if (!std::isfinite(face.deviation)) return kNoLabel;
+      return sequentialColour(largest_ > 0.0 ? face.deviation / largest_ : 0.0);
+    }
+    const Colour colour = shaded(baseColour(face), normalOf(model_, face));
+    if (face.label != FaceLabel::Roof || !(height_ > 0.0)) return colour;
+    const double z = model_.vertices[static_cast<std::size_t>(face.outer.front())].z();
+    return raised(colour, (z - lowest_) / height_);
+  }
+
+  void addScale(Drawing& drawing) const {
+    if (stage_ == Stage::Support) addSequentialBar(drawing, "share with points", 1.0);
+    if (stage_ != Stage::Deviation) return;
+    if (largest_ > 0.0) addSequentialBar(drawing, "st. dev. (length)", largest_);
+    drawing.legend.push_back({kNoLabel, "not known"});
+  }
+
+ private:
+  const PolyhedralModel& model_;
+  Stage stage_;
+  double lowest_ = 0.0;
+  double height_ = 0.0;
+  double largest_ = 0.0;  // deviation
+};
+
+FacetSet facetsOf(const Reconstruction& r, const PolyhedralModel& model,
+                  const FaceColours& colours) {
   FacetSet facets;
   facets.vertices = model.vertices;
-  const auto lower = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return a.z() < b.z();
-  };
-  const auto [lowest, highest] =
-      std::minmax_element(model.vertices.begin(), model.vertices.end(), lower);
-  const double height = highest->z() - lowest->z();
   for (std::size_t f = 0; f < model.faces.size(); ++f) {
-    const PolyhedralFace& face = model.faces[f];
-    Colour colour = shaded(baseColour(face), normalOf(model, face));
-    if (face.label == FaceLabel::Roof && height > 0.0) {
-      const double z = model.vertices[static_cast<std::size_t>(face.outer.front())].z();
-      colour = raised(colour, (z - lowest->z()) / height);
-    }
-    const auto triangles = triangulateFace(model, face);
+    const auto triangles = triangulateFace(model, model.faces[f]);
     if (triangles.empty()) {
       throw io::Failure(io::BadInput, r.file("model.ply"),
                         "its polygon " + std::to_string(f) + " is not a simple one in a plane",
                         "run storey_reconstruct again");
     }
     facets.triangles.insert(facets.triangles.end(), triangles.begin(), triangles.end());
-    facets.colours.insert(facets.colours.end(), triangles.size(), colour);
+    facets.colours.insert(facets.colours.end(), triangles.size(), colours(model.faces[f]));
   }
   return facets;
 }
 
-// The edges of the model's faces. Polygons that a face with holes was cut into lie in one plane:
-// what parts them is no edge of the model.
-LineSet edgesOf(const PolyhedralModel& model) {
-  constexpr double kSamePlane = 1.0 - 1e-9;  // cosine; neighbours of the model itself never meet it
-  std::vector<Eigen::Vector3d> normals;
-  for (const PolyhedralFace& face : model.faces) normals.push_back(normalOf(model, face));
-  std::map<std::pair<int, int>, std::vector<std::size_t>> faces_at;
+// The pieces at each edge, by its ends.
+using PiecesAt = std::map<std::pair<int, int>, std::vector<std::size_t>>;
+
+PiecesAt piecesAtEdges(const PolyhedralModel& model) {
+  PiecesAt pieces;
   for (std::size_t f = 0; f < model.faces.size(); ++f) {
     const std::vector<int>& ring = model.faces[f].outer;
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      faces_at[std::minmax(ring[i], ring[(i + 1) % ring.size()])].push_back(f);
+      pieces[std::minmax(ring[i], ring[(i + 1) % ring.size()])].push_back(f);
     }
   }
+  return pieces;
+}
+
+// The face of the model that each piece is of. Files know no holes: faces with holes are cut into
+// pieces, which lie in one plane, as neighbouring faces of the model never do.
+std::vector<std::size_t> wholeFaces(const PolyhedralModel& model, const PiecesAt& pieces_at) {
+  constexpr double kSamePlane = 1.0 - 1e-9;  // cosine
+  std::vector<Eigen::Vector3d> normals;
+  for (const PolyhedralFace& face : model.faces) normals.push_back(normalOf(model, face));
+  storey::detail::UnionFind<> whole(model.faces.size());
+  for (const auto& [ends, pieces] : pieces_at) {
+    if (pieces.size() == 2 && normals[pieces[0]].dot(normals[pieces[1]]) > kSamePlane) {
+      whole.unite(pieces[0], pieces[1]);
+    }
+  }
+  std::vector<std::size_t> faces;
+  for (std::size_t f = 0; f < model.faces.size(); ++f) faces.push_back(whole.find(f));
+  return faces;
+}
+
+// What parts the pieces of one face is no edge of the model.
+LineSet edgesOf(const PolyhedralModel& model, const PiecesAt& pieces_at,
+                const std::vector<std::size_t>& whole) {
   LineSet edges;
   edges.width = 2.0;
-  for (const auto& [ends, faces] : faces_at) {
-    if (faces.size() == 2 && normals[faces[0]].dot(normals[faces[1]]) > kSamePlane) continue;
+  for (const auto& [ends, pieces] : pieces_at) {
+    if (pieces.size() == 2 && whole[pieces[0]] == whole[pieces[1]]) continue;
     edges.lines.push_back({model.vertices[static_cast<std::size_t>(ends.first)],
                            model.vertices[static_cast<std::size_t>(ends.second)]});
     edges.colours.push_back(kDark);
@@ -126,14 +172,10 @@ LineSet edgesOf(const PolyhedralModel& model) {
   return edges;
 }
 
-void addModel(Drawing& drawing, const Reconstruction& r, double opacity) {
-  const PolyhedralModel model = r.readModel();
-  drawing.facets.push_back(facetsOf(r, model));
-  drawing.facets.back().opacity = opacity;
-  drawing.lines.push_back(edgesOf(model));
+void addKinds(Drawing& drawing, const std::vector<PolyhedralFace>& faces) {
   constexpr const char* kNames[] = {"wall", "roof", "ground", "ceiling"};
   const auto add = [&](const Colour& colour, const char* name, const auto& matches) {
-    const auto count = std::count_if(model.faces.begin(), model.faces.end(), matches);
+    const auto count = std::count_if(faces.begin(), faces.end(), matches);
     drawing.legend.push_back({colour, std::string(name) + ": " + std::to_string(count)});
   };
   for (int label = 0; label < 4; ++label) {
@@ -147,25 +189,49 @@ void addModel(Drawing& drawing, const Reconstruction& r, double opacity) {
   add(kPartly, "wall partly seen", isPartlySeen);
   add(kHypothetical, "wall not seen", isUnseen);
   drawing.legend_title = "polygons (higher roofs paler)";
-  const auto shells = static_cast<std::size_t>(model.num_shells);
-  drawing.subtitle = counted(model.faces.size(), "polygon") + ", " + counted(shells, "shell") +
-                     (r.report().inside ? ", a space seen from inside" : "");
+}
+
+const char* titleOf(Stage stage) {
+  switch (stage) {
+    case Stage::Support:
+      return "Model by its support";
+    case Stage::Deviation:
+      return "Model by its standard deviation";
+    case Stage::Overlay:
+      return "Model over the cloud";
+    default:
+      return "Model";
+  }
 }
 
 }  // namespace
 
-Drawing drawModel(const Reconstruction& r) {
+Drawing drawModel(const Reconstruction& r, Stage stage) {
+  const PolyhedralModel model = r.readModel();
+  const PiecesAt pieces_at = piecesAtEdges(model);
+  const std::vector<std::size_t> whole = wholeFaces(model, pieces_at);
+  std::vector<PolyhedralFace> faces;  // a piece of each
+  for (std::size_t f = 0; f < whole.size(); ++f) {
+    if (whole[f] == f) faces.push_back(model.faces[f]);
+  }
   Drawing drawing;
-  drawing.title = "Model";
-  addModel(drawing, r, 1.0);
+  drawing.title = titleOf(stage);
+  if (model.faces.empty()) return drawing;
+  const FaceColours colours(model, stage);
+  drawing.facets.push_back(facetsOf(r, model, colours));
+  drawing.lines.push_back(edgesOf(model, pieces_at, whole));
+  colours.addScale(drawing);
+  if (stage == Stage::Model || stage == Stage::Overlay) addKinds(drawing, faces);
+  drawing.subtitle = counted(faces.size(), "polygon") + ", " +
+                     counted(static_cast<std::size_t>(model.num_shells), "shell") +
+                     (r.report().inside ? ", a space seen from inside" : "");
   return drawing;
 }
 
-Drawing drawOverlay(const Reconstruction& r) {
+void layCloudOver(Drawing& drawing, const Reconstruction& r) {
+  constexpr double kOpacity = 0.4;
   const StageCloud cloud = readStageCloud(r.file("01_upright.pcd"), "");
-  Drawing drawing;
-  drawing.title = "Model over the cloud";
-  addModel(drawing, r, 0.4);
+  for (FacetSet& facets : drawing.facets) facets.opacity = kOpacity;
   PointSet set;
   set.size = 1.5;
   for (const std::size_t i : evenlySpaced(cloud.positions.size(), kOverlayPoints)) {
@@ -176,7 +242,6 @@ Drawing drawOverlay(const Reconstruction& r) {
                       counted(cloud.positions.size(), "point");
   drawing.points.push_back(std::move(set));
   drawing.legend.push_back({kCloud, "points"});
-  return drawing;
 }
 
 }  // namespace storey::view::detail

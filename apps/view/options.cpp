@@ -12,17 +12,20 @@ namespace {
 constexpr std::uint64_t kMinPixels = 400;   // below, the writing cannot be read
 constexpr std::uint64_t kMaxPixels = 4096;  // twice as many are rendered: what every OpenGL can do
 
-const std::vector<cli::Choice<Stage>> kStages = {{"confidence", Stage::Confidence},
-                                                 {"directions", Stage::Directions},
-                                                 {"slices", Stage::Slices},
-                                                 {"normals", Stage::Normals},
-                                                 {"labels", Stage::Labels},
-                                                 {"regions", Stage::Regions},
-                                                 {"refined", Stage::Refined},
-                                                 {"floorplans", Stage::Floorplans},
-                                                 {"model", Stage::Model},
-                                                 {"overlay", Stage::Overlay},
-                                                 {"slice", Stage::Slice}};
+std::vector<cli::Choice<Stage>> stageChoices() {
+  std::vector<cli::Choice<Stage>> choices;
+  for (const StageInfo& info : allStages()) choices.push_back({info.name, info.stage});
+  return choices;
+}
+
+std::string stageNames() {
+  std::string names;
+  for (const StageInfo& info : allStages()) {
+    if (!names.empty()) names += &info == &allStages().back() ? " or " : ", ";
+    names += info.name;
+  }
+  return names;
+}
 
 // What the command line gives before it is checked.
 struct Given {
@@ -46,23 +49,23 @@ PictureSize parseSize(const cli::CommandLine& line, const std::string& text) {
 
 void checkChoices(const cli::CommandLine& line, const Given& given, Options& options) {
   if (options.directory.empty()) line.fail("no directory given");
-  if (options.pictures == !options.picture.empty()) {
+  if (options.pictures && !options.picture.empty()) {
     line.fail("give either --pictures or --picture FILE.png");
   }
   options.size = parseSize(line, given.size);
   for (const char* const name : {"stage", "slice", "view"}) {
     if (options.pictures && line.given(name)) {
-      line.fail(std::string("--") + name + " goes with --picture, not with --pictures");
+      line.fail(std::string("--") + name + " goes with one stage, not with --pictures");
     }
   }
   if (options.pictures) return;
-  if (!line.given("stage")) line.fail("--picture needs a --stage");
+  if (!options.picture.empty() && !line.given("stage")) line.fail("--picture needs a --stage");
   if (line.given("view")) options.view = given.view;
   if (line.given("slice")) options.slice = given.slice;
-  const bool plan = options.stage == Stage::Slice;
-  if (options.slice && !plan) line.fail("--slice goes with --stage slice");
+  const bool plan = isPlan(options.stage);
+  if (options.slice && !plan) line.fail("--slice goes with --stage slice, segments or cells");
   if (plan && options.view && *options.view != View::Top) {
-    line.fail("a slice is drawn in plan: --view top");
+    line.fail("slices and cells are drawn in plan: --view top");
   }
 }
 
@@ -72,24 +75,28 @@ bool parseOptions(int argc, char** argv, Options& options) {
   Given given;
   cli::CommandLine line(
       "storey_view",
-      {"DIRECTORY --pictures [--size WxH]", "DIRECTORY --picture FILE.png --stage STAGE [options]"},
-      "Draws what storey_reconstruct left in a directory, to PNG files. Stages but the model need\n"
-      "what its --intermediate writes. Needs a display, of which nothing is seen; on a machine\n"
-      "without one: xvfb-run -a -s '-screen 0 1600x1200x24' storey_view ...");
+      {"DIRECTORY [--stage STAGE] [options]", "DIRECTORY --pictures [--size WxH]",
+       "DIRECTORY --picture FILE.png --stage STAGE [options]"},
+      "Shows what storey_reconstruct left in a directory: in a window, where h lists the keys, or "
+      "in\n"
+      "PNG files. Stages but the model need what its --intermediate writes. Pictures need a "
+      "display,\n"
+      "of which nothing is seen; on a machine without one:\n"
+      "xvfb-run -a -s '-screen 0 1600x1200x24' storey_view ...");
   line.argument("directory", options.directory, "the output directory of storey_reconstruct");
   line.flag("pictures", options.pictures,
             "write a picture of every stage into the directory; stages without files are left out");
   line.text("picture", options.picture, "write one picture to this file");
-  line.choice("stage", options.stage, kStages,
-              "confidence, directions, slices, normals, labels, regions, refined, floorplans, "
-              "model, overlay or slice");
-  line.whole("slice", given.slice, 0,
-             "number of the slice for --stage slice, from 0 at the bottom [the one nearest the "
-             "middle that has a floorplan]");
+  line.choice("stage", options.stage, stageChoices(), stageNames());
+  line.whole(
+      "slice", given.slice, 0,
+      "number of the slice for --stage slice or segments, or of the block for --stage "
+      "cells, from 0 at the bottom [the slice nearest the middle that has a floorplan, the middle "
+      "block]");
   line.choice<View>("view", given.view,
                     {{"iso", View::Isometric}, {"top", View::Top}, {"front", View::Front}},
-                    "iso = from the south-east above, top, front = from the south [iso; slice: "
-                    "top]");
+                    "iso = from the south-east above, top, front = from the south [iso; slices "
+                    "and cells: top]");
   line.text("size", given.size, "width and height in pixels, 400 to 4096");
   if (!line.parse(argc, argv)) return false;
   checkChoices(line, given, options);

@@ -5,23 +5,9 @@
 #include <string>
 
 #include "view/drawing.h"
+#include "view/stage_list.h"
 
 namespace storey::view {
-
-/// What a picture can show of a directory that storey_reconstruct left.
-enum class Stage {
-  Confidence,
-  Directions,
-  Slices,
-  Normals,
-  Labels,
-  Regions,
-  Refined,
-  Floorplans,
-  Model,
-  Overlay,
-  Slice
-};
 
 /// Width and height of a picture in pixels.
 struct PictureSize {
@@ -33,7 +19,7 @@ struct PictureSize {
 struct Options {
   std::string directory;
   bool pictures = false;  ///< all pictures, into the directory
-  std::string picture;    ///< or this one
+  std::string picture;    ///< or this one; neither: a window
   Stage stage = Stage::Model;
   std::optional<View> view;  ///< none: the stage's own
   std::optional<int> slice;  ///< none: the one nearest the middle that has a floorplan

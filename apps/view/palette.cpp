@@ -50,6 +50,23 @@ Colour sequentialColour(double share) {
   return {channel(0), channel(1), channel(2)};
 }
 
+Colour regionColour(std::size_t k) {
+  constexpr std::size_t kColours = 12;
+  constexpr std::size_t kStep = 5;
+  return distinctColour(k * kStep % kColours, kColours);
+}
+
+Colour azimuthColour(double angle) { return fromHsv(angle / (2.0 * M_PI), 0.8, 0.85); }
+
+Colour shaded(Colour colour, const Eigen::Vector3d& normal) {
+  constexpr double kAmbient = 0.62;
+  const Eigen::Vector3d to_light = Eigen::Vector3d(0.35, -0.75, 1.1).normalized();
+  const double light =
+      std::min(1.0, kAmbient + (1.0 - kAmbient) * 1.2 * std::max(0.0, normal.dot(to_light)));
+  const auto dim = [&](std::uint8_t c) { return static_cast<std::uint8_t>(light * c); };
+  return {dim(colour.r), dim(colour.g), dim(colour.b)};
+}
+
 std::vector<Colour> sequentialColours(std::size_t n) {
   std::vector<Colour> colours;
   for (std::size_t i = 0; i < n; ++i) {

@@ -23,6 +23,16 @@ Colour sliceColour(std::size_t k);
 /// From dark blue at 0 over green to yellow at 1, lighter all the way; clamped.
 Colour sequentialColour(double share);
 
+/// Colour of edge region k: twelve in turn, neighbours far apart in hue.
+Colour regionColour(std::size_t k);
+
+/// Colour of a horizontal direction; angle in radians from +x to +y.
+Colour azimuthColour(double angle);
+
+/// The colour under a fixed light, so that a wall looks the same from every side: from the
+/// south-south-east, high. \param normal unit
+Colour shaded(Colour colour, const Eigen::Vector3d& normal);
+
 /// n colours of `sequentialColour` from 0 to 1, for a bar.
 std::vector<Colour> sequentialColours(std::size_t n);
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Floorplans: those of all slices over each other, and one slice from its points to its floorplan.
+#include <storey/segmentation/detail/segment_linking.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "io/failure.h"
 #include "view/palette.h"
@@ -79,12 +82,7 @@ std::size_t chooseSlice(const Reconstruction& r, const std::vector<SliceRange>& 
   }
   if (!wanted) return middleSlice(slices, lines, r.report().slice_thickness);
   const auto chosen = static_cast<std::size_t>(*wanted);
-  if (chosen >= slices.size()) {
-    throw io::Failure(io::Usage, "",
-                      "--slice is " + std::to_string(*wanted) + ", the last one is " +
-                          std::to_string(slices.size() - 1),
-                      "");
-  }
+  requireStep(chosen, slices.size());
   return chosen;
 }
 
@@ -143,11 +141,97 @@ void layOver(Drawing& drawing, const StageCloud& before, const StageCloud& after
   drawing.points.push_back(flatPoints(after, slice, kRefined, 2.5, static_cast<float>(3.0 * step)));
 }
 
+StageCloud readOfSlices(const Reconstruction& r, const char* name, const char* field,
+                        std::size_t total) {
+  StageCloud cloud = readStageCloud(r.file(name), field);
+  if (cloud.positions.size() != total) {
+    throw io::Failure(io::BadInput, r.file("04_slices.pcd"),
+                      std::string("is not of the same run as ") + name,
+                      "run storey_reconstruct again");
+  }
+  return cloud;
+}
+
+// From the points as projected to the floorplan.
+void addSteps(Drawing& drawing, const Reconstruction& r, const SliceRange& slice, std::size_t total,
+              Lines floorplan) {
+  const bool found = !floorplan.empty();
+  const StageCloud before = readOfSlices(r, "05_normals.pcd", "", total);
+  const StageCloud after = readOfSlices(r, "08_refined.pcd", "", total);
+  layOver(drawing, before, after, std::move(floorplan), slice);
+  drawing.legend = {{kProjected, "points as projected"},
+                    {kStick, "normals, of some"},
+                    {kFloorplan, found ? "floorplan" : "floorplan: none found"},
+                    {kRefined, "refined points"}};
+}
+
+// Points of a slice that belong together.
+using Members = std::vector<std::size_t>;
+
+std::map<double, Members> regionsOf(const StageCloud& regions, const SliceRange& slice) {
+  std::map<double, Members> members;
+  for (std::size_t i = slice.first; i < slice.first + slice.count; ++i) {
+    members[regions.values[i]].push_back(i);
+  }
+  return members;
+}
+
+// The line segment of a region, as the extraction of floorplans fits it; none where that has none.
+std::optional<storey::detail::LineSegment> segmentOf(const StageCloud& cloud,
+                                                     const Members& members) {
+  constexpr std::size_t kLeastPoints = 5;
+  constexpr double kPriorAngle = 0.02;  // rad
+  std::vector<Eigen::Vector2d> positions;
+  Eigen::Vector2d outward = Eigen::Vector2d::Zero();
+  for (const std::size_t i : members) {
+    positions.push_back(cloud.positions[i].head<2>().cast<double>());
+    const Eigen::Vector2d normal = cloud.normals[i].head<2>().cast<double>();
+    if (normal.allFinite()) outward += normal;
+  }
+  if (members.size() < kLeastPoints || outward.isZero()) return std::nullopt;
+  return storey::detail::fitTrimmedSegment(positions, outward.normalized(), kPriorAngle, 0.0);
+}
+
+// The points of a slice by their edge region, and the line segment of each.
+void addSegments(Drawing& drawing, const Reconstruction& r, const SliceRange& slice,
+                 std::size_t total) {
+  const StageCloud before = readOfSlices(r, "05_normals.pcd", "", total);  // scattered, to be seen
+  const StageCloud refined = readOfSlices(r, "08_refined.pcd", "", total);
+  PointSet set;
+  set.size = 5.0;
+  LineSet segments;
+  segments.width = 3.0;
+  std::size_t num_regions = 0;
+  for (const auto& [label, members] :
+       regionsOf(readOfSlices(r, "07_regions.pcd", "label", total), slice)) {
+    const Colour colour = label >= 1.0 ? regionColour(num_regions++) : kNoLabel;
+    for (const std::size_t i : members) {
+      set.positions.emplace_back(before.positions[i].x(), before.positions[i].y(), 0.0f);
+      set.colours.push_back(colour);
+    }
+    const auto segment = label >= 1.0 ? segmentOf(refined, members) : std::nullopt;
+    if (!segment) continue;
+    segments.lines.push_back(
+        {{segment->start.x(), segment->start.y(), 0.0}, {segment->end.x(), segment->end.y(), 0.0}});
+    segments.colours.push_back(kDark);
+  }
+  const double above = 1e-3 * extentOf(set);
+  for (auto& line : segments.lines) {
+    for (Eigen::Vector3d& p : line) p.z() = above;
+  }
+  drawing.subtitle += ", " + counted(num_regions, "region");
+  drawing.legend_title = "colours tell regions apart";
+  drawing.legend = {{kDark, "segments: " + std::to_string(segments.lines.size())},
+                    {kNoLabel, "points in none"}};
+  drawing.points.push_back(std::move(set));
+  drawing.lines.push_back(std::move(segments));
+}
+
 }  // namespace
 
 Drawing drawFloorplans(const Reconstruction& r) {
   Drawing drawing;
-  drawing.title = "Floorplans of the slices";
+  drawing.title = "Floorplans";
   LineSet set;
   set.lines = readVtkLines(r.file("09_floorplans.vtk"));
   double low = std::numeric_limits<double>::infinity();
@@ -176,33 +260,26 @@ Drawing drawFloorplans(const Reconstruction& r) {
   return drawing;
 }
 
-Drawing drawSlice(const Reconstruction& r, std::optional<int> wanted) {
+Drawing drawSlice(const Reconstruction& r, Stage stage, std::optional<int> wanted) {
   const double thickness = r.report().slice_thickness;
-  const Lines lines = readVtkLines(r.file("09_floorplans.vtk"));
+  const bool have_lines = r.has("09_floorplans.vtk");
+  const Lines lines = have_lines ? readVtkLines(r.file("09_floorplans.vtk")) : Lines{};
   const std::vector<SliceRange> slices =
       findSlices(r.readLabels("04_slices.pcd", r.report().num_slices), r.report().num_slices);
   const std::size_t chosen = chooseSlice(r, slices, lines, wanted);
   const SliceRange& slice = slices[chosen];
-  const StageCloud before = readStageCloud(r.file("05_normals.pcd"), "");
-  const StageCloud after = readStageCloud(r.file("08_refined.pcd"), "");
   const std::size_t total = slices.back().first + slices.back().count;
-  if (before.positions.size() != total || after.positions.size() != total) {
-    throw io::Failure(io::BadInput, r.file("04_slices.pcd"),
-                      "is not of the same run as 05_normals.pcd and 08_refined.pcd",
-                      "run storey_reconstruct again");
-  }
-  Lines floorplan = linesOf(lines, slice, thickness);
-  const std::size_t num_rings = floorplan.size();
   Drawing drawing;
-  drawing.title = "Slice " + std::to_string(chosen) + " in plan (0 to " +
-                  std::to_string(slices.size() - 1) + ")";
+  const char* const what = stage == Stage::Segments ? "Edge regions of slice " : "Slice ";
+  drawing.title =
+      what + std::to_string(chosen) + " in plan (0 to " + std::to_string(slices.size() - 1) + ")";
   drawing.subtitle = counted(slice.count, "point") + ", " + shortNumber(thickness) + " thick";
   if (slice.count > 0) drawing.subtitle += ", around z = " + shortNumber(slice.middle());
-  layOver(drawing, before, after, std::move(floorplan), slice);
-  drawing.legend = {{kProjected, "points as projected"},
-                    {kStick, "normals, of some"},
-                    {kFloorplan, num_rings > 0 ? "floorplan" : "floorplan: none found"},
-                    {kRefined, "refined points"}};
+  if (stage == Stage::Segments) {
+    addSegments(drawing, r, slice, total);
+  } else {
+    addSteps(drawing, r, slice, total, linesOf(lines, slice, thickness));
+  }
   return drawing;
 }
 

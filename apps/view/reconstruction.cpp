@@ -3,37 +3,29 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "io/failure.h"
-#include "io/input_file.h"
 #include "io/limits.h"
 #include "io/model_io.h"
+#include "view/json_file.h"
 
 namespace storey::view {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::uint64_t kMaxJsonBytes = std::uint64_t{1} << 28;  // a report has kilobytes
 constexpr std::size_t kMaxSlices = 1000000;  // as many colours are made for the picture of slices
-
-// Reads a JSON file and takes from it what `extract` wants; whatever is not there is a Failure.
-template <typename Extract>
-void readJson(const std::string& path, const Extract& extract) {
-  io::InputFile file(path, kMaxJsonBytes);
-  const auto size = static_cast<std::size_t>(file.size());
-  try {
-    const unsigned char* const text = file.take(size);
-    extract(Json::parse(text, text + size));
-  } catch (const Json::exception& error) {
-    file.fail("is not what storey_reconstruct writes: " + std::string(error.what()),
-              "run storey_reconstruct again");
-  }
-}
 
 Eigen::Vector3d toVector(const Json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+// The paper's method knows the types of slices, the other one those of blocks.
+std::vector<int> layerTypes(const Json& json) {
+  if (!json.contains("layers")) return {};
+  const Json& layers = json.at("layers");
+  std::vector<int> types = layers.value("slice_types", std::vector<int>{});
+  return types.empty() ? layers.value("block_types", std::vector<int>{}) : types;
 }
 
 Report toReport(const Json& json) {
@@ -47,6 +39,7 @@ Report toReport(const Json& json) {
   }
   report.slice_thickness = json.at("slices").at("thickness").get<double>();
   report.num_slices = json.at("slices").at("count").get<std::size_t>();
+  report.layer_types = layerTypes(json);
   report.grid = json.at("model").at("grid").get<double>();
   report.offset = toVector(json.at("input").at("offset"));
   return report;
@@ -79,7 +72,9 @@ PolyhedralModel toModel(const io::PolygonSoup& soup, double grid) {
     face.wall = polygon.wall;
     face.shell = polygon.shell;
     face.hypothetical = polygon.hypothetical;
-    face.coverage = soup.deviations.empty() ? 1.0 : polygon.coverage;  // else not measured
+    const bool measured = !soup.deviations.empty();
+    face.coverage = measured ? polygon.coverage : 1.0;
+    if (measured) face.deviation = polygon.deviation;
     model.faces.push_back(std::move(face));
     model.num_shells = std::max(model.num_shells, polygon.shell + 1);
   }

@@ -20,7 +20,8 @@ struct Report {
   std::vector<double> azimuths;   ///< of the dominant directions, degrees from +x to +y
   double slice_thickness = 0.0;   ///< length
   std::size_t num_slices = 0;
-  double grid = 0.0;                                 ///< unit of the model's coordinates, length
+  std::vector<int> layer_types;  ///< floorplan type of each slice, or of each block; -1: none
+  double grid = 0.0;             ///< unit of the model's coordinates, length
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of the local frame, in the input's
 };
 

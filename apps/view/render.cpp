@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "view/render.h"
 
-#include <vtkImageShrink3D.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
-#include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkWindowToImageFilter.h>
 
 #include "io/failure.h"
-#include "io/output_file.h"
 #include "view/annotations.h"
 #include "view/layout.h"
+#include "view/png.h"
 #include "view/scene.h"
 
 namespace storey::view {
@@ -33,6 +29,8 @@ void prepareWindow(vtkRenderWindow& window, const PictureSize& size) {
   window.SetSize(kOversampling * size.width, kOversampling * size.height);
 }
 
+}  // namespace
+
 void prepareScene(vtkRenderer& renderer) {
   constexpr int kMaxPeels = 40;  // facets one behind the other
   renderer.SetBackground(1.0, 1.0, 1.0);
@@ -41,36 +39,18 @@ void prepareScene(vtkRenderer& renderer) {
   renderer.SetOcclusionRatio(0.0);
 }
 
-void writePng(const std::string& path, vtkRenderWindow& window) {
-  vtkNew<vtkWindowToImageFilter> grabber;
-  grabber->SetInput(&window);
-  grabber->SetInputBufferTypeToRGB();
-  grabber->ReadFrontBufferOff();
-  vtkNew<vtkImageShrink3D> average;
-  average->SetInputConnection(grabber->GetOutputPort());
-  average->SetShrinkFactors(kOversampling, kOversampling, 1);
-  average->AveragingOn();
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(average->GetOutputPort());
-  writer->WriteToMemoryOn();
-  writer->Write();
-  vtkUnsignedCharArray* const png = writer->GetResult();
-  io::OutputFile file(path);
-  file.write(png->GetPointer(0), static_cast<std::size_t>(png->GetNumberOfTuples()));
-  file.commit();
-}
-
-}  // namespace
-
-PictureWriter::PictureWriter(const PictureSize& size) : size_(size) {
-  vtkObject::GlobalWarningDisplayOff();  // what matters is said by a Failure, in one line
+void requireOpenGl(const DisplayConnection& display, const std::string& hint) {
   const vtkNew<vtkRenderWindow> window;
   const bool needs_display = window->IsA("vtkXOpenGLRenderWindow") != 0;
   window->SetOffScreenRendering(1);
-  if ((needs_display && !display_.usable()) || window->SupportsOpenGL() == 0) {
-    throw io::Failure(io::Temporary, "", "there is no display with OpenGL to draw on",
-                      "run it as: xvfb-run -a -s '-screen 0 1600x1200x24' storey_view ...");
+  if ((needs_display && !display.usable()) || window->SupportsOpenGL() == 0) {
+    throw io::Failure(io::Temporary, "", "there is no display with OpenGL to draw on", hint);
   }
+}
+
+PictureWriter::PictureWriter(const PictureSize& size) : size_(size) {
+  vtkObject::GlobalWarningDisplayOff();  // what matters is said by a Failure, in one line
+  requireOpenGl(display_, "run it as: xvfb-run -a -s '-screen 0 1600x1200x24' storey_view ...");
 }
 
 void PictureWriter::write(const std::string& path, const Drawing& drawing) const {
@@ -87,11 +67,11 @@ void PictureWriter::write(const std::string& path, const Drawing& drawing) const
   sheet->SetLayer(1);
   window->AddRenderer(scene);
   window->AddRenderer(sheet);
-  addScene(*scene, drawing, layout, pixels);
+  liftLines(addScene(*scene, drawing, layout, pixels), drawing, layout, projection.towards, pixels);
   aimCamera(*scene, layout, projection, bounds, pixels);
   addAnnotations(*sheet, layout, drawing, projection, pixels);
   window->Render();
-  writePng(path, *window);
+  writePng(path, *window, kOversampling);
 }
 
 }  // namespace storey::view

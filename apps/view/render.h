@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vtkRenderer.h>
+
 #include <string>
 
 #include "view/display.h"
@@ -8,6 +10,12 @@
 #include "view/options.h"
 
 namespace storey::view {
+
+/// Makes a renderer white and translucent facets right whatever lies behind them.
+void prepareScene(vtkRenderer& renderer);
+
+/// \throws io::Failure (Temporary) with the hint if VTK cannot draw on the display
+void requireOpenGl(const DisplayConnection& display, const std::string& hint);
 
 /// Renders drawings off-screen and writes them as PNG.
 class PictureWriter {

@@ -69,9 +69,7 @@ void addPoints(vtkRenderer& renderer, const PointSet& set, double size) {
   renderer.AddActor(actor);
 }
 
-// `lift` brings lines before the facets that they bound; it is towards the eye and not seen.
-void addLines(vtkRenderer& renderer, const LineSet& set, double width,
-              const Eigen::Vector3d& lift) {
+vtkActor* addLines(vtkRenderer& renderer, const LineSet& set, double width) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   vtkNew<vtkCellArray> cells;
@@ -87,8 +85,8 @@ void addLines(vtkRenderer& renderer, const LineSet& set, double width,
   data->GetCellData()->SetScalars(toVtk(set.colours));
   const vtkNew<vtkActor> actor = unlitActor(data);
   actor->GetProperty()->SetLineWidth(static_cast<float>(width));
-  actor->SetPosition(lift.x(), lift.y(), lift.z());
   renderer.AddActor(actor);
+  return actor;
 }
 
 void addFacets(vtkRenderer& renderer, const FacetSet& set) {
@@ -110,21 +108,29 @@ void addFacets(vtkRenderer& renderer, const FacetSet& set) {
 
 }  // namespace
 
-void addScene(vtkRenderer& renderer, const Drawing& drawing, const Layout& layout, double pixels) {
-  constexpr double kLiftPixels = 2.0;
-  const Projection projection = projectionOf(drawing.view);
-  const ProjectedBounds bounds = boundsOf(drawing, projection);
+std::vector<vtkActor*> addScene(vtkRenderer& renderer, const Drawing& drawing, const Layout& layout,
+                                double pixels) {
+  const ProjectedBounds bounds = boundsOf(drawing, projectionOf(drawing.view));
   for (const FacetSet& set : drawing.facets) addFacets(renderer, set);
   for (const PointSet& set : drawing.points) {
     if (set.positions.empty()) continue;
     const double size = set.size > 0.0 ? set.size * layout.unit : closingSize(set, bounds, pixels);
     addPoints(renderer, set, size);
   }
-  const double lift = drawing.facets.empty() ? 0.0 : kLiftPixels * layout.unit / pixels;
+  std::vector<vtkActor*> lines;
   for (const LineSet& set : drawing.lines) {
-    if (!set.lines.empty())
-      addLines(renderer, set, set.width * layout.unit, lift * projection.towards);
+    if (set.lines.empty()) continue;
+    lines.push_back(addLines(renderer, set, set.width * layout.unit));
   }
+  return lines;
+}
+
+void liftLines(const std::vector<vtkActor*>& lines, const Drawing& drawing, const Layout& layout,
+               const Eigen::Vector3d& towards, double pixels) {
+  constexpr double kLiftPixels = 2.0;
+  if (drawing.facets.empty()) return;
+  const Eigen::Vector3d lift = kLiftPixels * layout.unit / pixels * towards;
+  for (vtkActor* const actor : lines) actor->SetPosition(lift.x(), lift.y(), lift.z());
 }
 
 void aimCamera(vtkRenderer& renderer, const Layout& layout, const Projection& projection,

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "io/failure.h"
+#include "view/plan_files.h"
 
 namespace storey::view {
 namespace {
@@ -19,59 +20,54 @@ Drawing drawStage(const Reconstruction& r, Stage stage, View view, std::optional
       return detail::drawDirections(r, stage, view);
     case Stage::Slices:
       return detail::drawSlices(r, view);
+    case Stage::Upright:
     case Stage::Normals:
-      return detail::drawNormals(r, view);
+      return detail::drawNormals(r, stage, view);
     case Stage::Regions:
       return detail::drawRegions(r, view);
     case Stage::Refined:
       return detail::drawRefined(r, view);
     case Stage::Floorplans:
       return detail::drawFloorplans(r);
-    case Stage::Overlay:
-      return detail::drawOverlay(r);
+    case Stage::Walls:
+      return detail::drawWalls(r);
+    case Stage::Cells:
+      return detail::drawCells(r, slice);
+    case Stage::Types:
+      return detail::drawTypes(r);
     case Stage::Slice:
-      return detail::drawSlice(r, slice);
+    case Stage::Segments:
+      return detail::drawSlice(r, stage, slice);
     default:
-      return detail::drawModel(r);
+      return detail::drawModel(r, stage);
   }
 }
 
 }  // namespace
 
-std::vector<std::string> filesOf(Stage stage) {
-  switch (stage) {
-    case Stage::Confidence:
-      return {"02_confidence.pcd"};
-    case Stage::Directions:
-      return {"03_directions.pcd"};
-    case Stage::Slices:
-      return {"04_slices.pcd"};
-    case Stage::Normals:
-      return {"05_normals.pcd"};
-    case Stage::Labels:
-      return {"06_labels.pcd"};
-    case Stage::Regions:
-      return {"07_regions.pcd"};
-    case Stage::Refined:
-      return {"05_normals.pcd", "08_refined.pcd"};
-    case Stage::Floorplans:
-      return {"09_floorplans.vtk"};
-    case Stage::Overlay:
-      return {"01_upright.pcd", "model.ply", "floorplans.geojson"};
-    case Stage::Slice:
-      return {"04_slices.pcd", "05_normals.pcd", "08_refined.pcd", "09_floorplans.vtk"};
-    default:
-      return {"model.ply", "floorplans.geojson"};
+std::string missingFile(const Reconstruction& reconstruction, Stage stage) {
+  for (const std::string& name : infoOf(stage).files) {
+    if (!reconstruction.has(name)) return name;
   }
+  return {};
+}
+
+std::size_t countSteps(const Reconstruction& reconstruction, Stage stage) {
+  if (!isPlan(stage) || !missingFile(reconstruction, stage).empty()) return 0;
+  if (stage != Stage::Cells) return reconstruction.report().num_slices;
+  return readCells(reconstruction.file(infoOf(stage).files.front())).blocks.size();
 }
 
 Drawing makeDrawing(const Reconstruction& reconstruction, Stage stage, View view,
-                    std::optional<int> slice) {
+                    std::optional<int> slice, bool with_cloud) {
   Drawing drawing = drawStage(reconstruction, stage, view, slice);
+  if (stage == Stage::Overlay || (with_cloud && canOverlay(stage))) {
+    detail::layCloudOver(drawing, reconstruction);
+  }
   drawing.view = view;
   drawing.subtitle = io::printable(reconstruction.report().input, 40) + ": " + drawing.subtitle;
   if (boundsOf(drawing, projectionOf(view)).empty()) {
-    throw io::Failure(io::BadInput, reconstruction.file(filesOf(stage).back()),
+    throw io::Failure(io::BadInput, reconstruction.file(infoOf(stage).files.back()),
                       "there is nothing in it to draw", "look at an earlier stage");
   }
   return drawing;
@@ -97,6 +93,14 @@ std::string shortNumber(double value) {
 
 std::string counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+void requireStep(std::size_t step, std::size_t num_steps) {
+  if (step < num_steps) return;
+  throw io::Failure(
+      io::Usage, "",
+      "--slice is " + std::to_string(step) + ", the last one is " + std::to_string(num_steps - 1),
+      "");
 }
 
 Colour paler(Colour colour) {

@@ -15,14 +15,18 @@ namespace storey::view {
 
 constexpr std::size_t kMaxDrawnPoints = 300000;  // of a cloud; more only hide each other
 
-/// The files that a stage is drawn from, besides report.json.
-std::vector<std::string> filesOf(Stage stage);
+/// The first of the files that a stage is drawn from that is not there; empty: all are.
+std::string missingFile(const Reconstruction& reconstruction, Stage stage);
 
-/// What there is to see of a stage. The slice is for `Stage::Slice`, none: the one nearest the
-/// middle that has a floorplan.
-/// \throws io::Failure (BadInput, MissingInput, IoError)
+/// How many slices or blocks there are to see one by one; 0 for stages that show all at once.
+std::size_t countSteps(const Reconstruction& reconstruction, Stage stage);
+
+/// What there is to see of a stage. The slice (or block) is for stages in plan; none: the slice
+/// nearest the middle that has a floorplan, the middle block.
+/// \param with_cloud lay the cloud over what `canOverlay`; always so for `Stage::Overlay`
+/// \throws io::Failure (Usage, BadInput, MissingInput, IoError)
 Drawing makeDrawing(const Reconstruction& reconstruction, Stage stage, View view,
-                    std::optional<int> slice);
+                    std::optional<int> slice, bool with_cloud = false);
 
 /// min(n, at_most) of the numbers 0 .. n - 1 at even distances, ascending.
 std::vector<std::size_t> evenlySpaced(std::size_t n, std::size_t at_most);
@@ -33,13 +37,27 @@ namespace detail {
 Drawing drawConfidence(const Reconstruction& reconstruction, View view);
 Drawing drawDirections(const Reconstruction& reconstruction, Stage stage, View view);
 Drawing drawSlices(const Reconstruction& reconstruction, View view);
-Drawing drawNormals(const Reconstruction& reconstruction, View view);
+Drawing drawNormals(const Reconstruction& reconstruction, Stage stage, View view);
 Drawing drawRegions(const Reconstruction& reconstruction, View view);
 Drawing drawRefined(const Reconstruction& reconstruction, View view);
 Drawing drawFloorplans(const Reconstruction& reconstruction);
-Drawing drawModel(const Reconstruction& reconstruction);
-Drawing drawOverlay(const Reconstruction& reconstruction);
-Drawing drawSlice(const Reconstruction& reconstruction, std::optional<int> slice);
+Drawing drawWalls(const Reconstruction& reconstruction);
+Drawing drawCells(const Reconstruction& reconstruction, std::optional<int> block);
+Drawing drawTypes(const Reconstruction& reconstruction);
+Drawing drawModel(const Reconstruction& reconstruction, Stage stage);
+Drawing drawSlice(const Reconstruction& reconstruction, Stage stage, std::optional<int> slice);
+
+/// Lays the upright cloud over a drawing and lets it shine through facets.
+void layCloudOver(Drawing& drawing, const Reconstruction& reconstruction);
+
+/// Refuses a slice or block beyond the last one. \throws io::Failure (Usage)
+void requireStep(std::size_t step, std::size_t num_steps);
+
+/// The bar of `azimuthColour`.
+void addAzimuthBar(Drawing& drawing);
+
+/// A bar of `sequentialColour` from 0 to `high`.
+void addSequentialBar(Drawing& drawing, const std::string& title, double high);
 
 /// The number with three significant digits, or its whole part if that is longer.
 std::string shortNumber(double value);
@@ -63,14 +81,14 @@ void addCloud(Drawing& drawing, const StageCloud& cloud, View view, const Colour
   PointSet set;
   for (const std::size_t i : evenlySpaced(n, kMaxDrawnPoints)) {
     set.positions.push_back(cloud.positions[i]);
-    const bool behind = cloud.normals[i].dot(towards) < kBehind;
+    const bool behind = view != View::Free && cloud.normals[i].dot(towards) < kBehind;
     set.colours.push_back(behind ? paler(colour(i)) : colour(i));
   }
   drawing.subtitle = counted(n, "point");
   if (set.positions.size() < n) {
     drawing.subtitle += ", " + std::to_string(set.positions.size()) + " drawn";
   }
-  drawing.subtitle += ", paler where seen from behind";
+  if (view != View::Free) drawing.subtitle += ", paler where seen from behind";
   drawing.points.push_back(std::move(set));
 }
 

@@ -126,6 +126,7 @@ class Labeling {
       FloorplanLayer layer;
       layer.z_min = evidence_.heightOf(block.first_bin);
       layer.z_max = evidence_.heightOf(block.last_bin);
+      result_.block_heights.emplace_back(layer.z_min, layer.z_max);
       layer.plan = outlineOf(result_.plan, block, kCornerTolerance * scale_.noise,
                              kShortEdge * scale_.noise, min_area);
       if (!layer.plan.empty()) result_.layers.push_back(std::move(layer));

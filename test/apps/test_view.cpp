@@ -2,6 +2,7 @@
 // What pictures show, before anything is rendered.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -218,6 +219,95 @@ TEST(ModelPicture, APolygonThatIsNoneIsRefused) {
   const Reconstruction reconstruction(box.path());
   EXPECT_EQ(statusOf([&] { makeDrawing(reconstruction, Stage::Model, View::Top, {}); }),
             io::BadInput);
+}
+
+TEST(ModelPicture, PiecesOfAFaceCountAsOnePolygon) {
+  const BoxReconstruction box;
+  io::PolygonSoup soup = test::boxSoup();
+  io::PolygonSoup::Polygon half = soup.polygons[4];  // the roof, cut along a diagonal
+  half.corners = {4, 7, 6};
+  soup.polygons[4].corners = {4, 5, 7};
+  soup.polygons.push_back(half);
+  io::writePolygonsPly(box.file("model.ply"), soup, Eigen::Isometry3d::Identity());
+  const Drawing drawing = makeDrawing(Reconstruction(box.path()), Stage::Model, View::Top, {});
+  EXPECT_EQ(drawing.legend[1].text, "roof: 1");
+  EXPECT_NE(drawing.subtitle.find("6 polygons"), std::string::npos) << drawing.subtitle;
+  EXPECT_EQ(drawing.lines.front().lines.size(), 12u);
+}
+
+TEST(ModelPicture, SupportAndDeviationAreColouredByTheirBars) {
+  const BoxReconstruction box;
+  io::PolygonSoup soup = test::boxSoup();
+  soup.deviations.assign(soup.vertices.size(), 0.01);
+  for (std::size_t i = 0; i < 6; ++i) {
+    soup.polygons[i].coverage = i == 0 ? 1.0 : 0.0;
+    soup.polygons[i].deviation = i == 1 ? 0.5 : 0.0;
+  }
+  io::writePolygonsPly(box.file("model.ply"), soup, Eigen::Isometry3d::Identity());
+  const Reconstruction reconstruction(box.path());
+  const Drawing support = makeDrawing(reconstruction, Stage::Support, View::Top, {});
+  const Drawing deviation = makeDrawing(reconstruction, Stage::Deviation, View::Top, {});
+  for (std::size_t t = 0; t < 12; ++t) {  // two triangles a face
+    EXPECT_TRUE(support.facets[0].colours[t] == sequentialColour(t / 2 == 0 ? 1.0 : 0.0));
+    EXPECT_TRUE(deviation.facets[0].colours[t] == sequentialColour(t / 2 == 1 ? 1.0 : 0.0));
+  }
+  EXPECT_EQ(deviation.bar.ticks.back().text, "0.5");
+}
+
+TEST(ModelPicture, TheCloudIsLaidOverOnDemand) {
+  const BoxReconstruction box;
+  box.writeStages();
+  const Reconstruction reconstruction(box.path());
+  EXPECT_TRUE(makeDrawing(reconstruction, Stage::Support, View::Free, {}).points.empty());
+  const Drawing both = makeDrawing(reconstruction, Stage::Support, View::Free, {}, true);
+  EXPECT_EQ(both.points.size(), 1u);
+  EXPECT_LT(both.facets.front().opacity, 1.0);
+}
+
+TEST(PlanPictures, ShowEachRunOfAWallAndTheCellsOfABlock) {
+  const BoxReconstruction box;
+  box.writePlans();
+  const Reconstruction reconstruction(box.path());
+  const Drawing walls = makeDrawing(reconstruction, Stage::Walls, View::Isometric, {});
+  EXPECT_EQ(walls.lines.front().lines.size(), 2u);  // two runs
+  EXPECT_EQ(walls.facets.front().triangles.size(), 4u);
+  EXPECT_EQ(countSteps(reconstruction, Stage::Cells), 2u);
+  const Drawing lower = makeDrawing(reconstruction, Stage::Cells, View::Top, 0);
+  const Drawing upper = makeDrawing(reconstruction, Stage::Cells, View::Top, 1);
+  const Colour inside = lower.legend.front().colour;
+  const auto in = [&](const Drawing& drawing) {
+    const auto& colours = drawing.facets.front().colours;
+    return std::count(colours.begin(), colours.end(), inside) / 2;  // two triangles a cell
+  };
+  EXPECT_EQ(in(lower), 2);
+  EXPECT_EQ(in(upper), 1);
+  EXPECT_EQ(statusOf([&] { makeDrawing(reconstruction, Stage::Cells, View::Top, 2); }), io::Usage);
+}
+
+TEST(PlanPictures, FilesThatAreNoneAreRefused) {
+  const BoxReconstruction box;
+  for (const char* const text : {"", "{}", R"({"blocks": [[0]], "features": []})",
+                                 R"({"blocks": [[0, 1]], "features": [{"properties":
+        {"inside": [1]}, "geometry": {"coordinates": [[[0,0],[1,0],[1,1],[0,0]]]}}]})"}) {
+    box.directory().write("09_cells.geojson", text);
+    box.directory().write("09_walls.geojson", text[0] == '{' ? "{\"features\": [1]}" : text);
+    const Reconstruction reconstruction(box.path());
+    for (const Stage stage : {Stage::Cells, Stage::Walls}) {
+      EXPECT_EQ(statusOf([&] { makeDrawing(reconstruction, stage, View::Top, {}); }), io::BadInput)
+          << text;
+    }
+  }
+}
+
+TEST(SlicePicture, EveryRegionOfASliceHasASegment) {
+  const BoxReconstruction box;
+  box.writeStages();
+  const Drawing drawing = makeDrawing(Reconstruction(box.path()), Stage::Segments, View::Top, 1);
+  ASSERT_EQ(drawing.lines.front().lines.size(), 2u);  // halves of the wall on y = 0
+  for (const auto& line : drawing.lines.front().lines) {
+    EXPECT_NEAR(line.front().y(), 0.0, 1e-6);
+    EXPECT_NEAR((line.back() - line.front()).norm(), 1.6, 1e-3);  // five points 0.4 apart
+  }
 }
 
 TEST(SlicePicture, ShowsThePointsAndTheFloorplanOfTheSliceAskedFor) {

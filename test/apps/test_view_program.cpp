@@ -48,7 +48,7 @@ std::uint32_t bigEndian(const std::string& bytes, std::size_t at) {
 TEST(ViewProgram, WrongCommandLinesGiveOneLineAndStatus2) {
   const BoxReconstruction box;
   for (const char* const arguments :
-       {"", "--pictures", "DIR", "DIR --pictures --picture a.png", "DIR --picture a.png",
+       {"", "--pictures", "DIR --slice 1", "DIR --pictures --picture a.png", "DIR --picture a.png",
         "DIR --picture a.png --stage nothing", "DIR --picture a.png --stage model --view behind",
         "DIR --picture a.png --stage model --slice 1", "DIR --pictures --stage model",
         "DIR --picture a.png --stage slice --slice -1", "DIR --pictures --size 100x100",
@@ -86,6 +86,9 @@ TEST(ViewProgram, WithoutADisplayItSaysWhatToDo) {
   EXPECT_EQ(outcome.status, 75);
   EXPECT_NE(outcome.message.find("xvfb-run"), std::string::npos) << outcome.message;
   EXPECT_FALSE(std::filesystem::exists(box.file("a.png")));
+  const Outcome window = runView(box.path(), "env -u DISPLAY -u WAYLAND_DISPLAY ");
+  EXPECT_EQ(window.status, 75);
+  EXPECT_NE(window.message.find("--pictures"), std::string::npos) << window.message;
 }
 
 TEST(ViewProgram, ADisplayWithoutOpenGlIsToldBeforeItEndsTheProgram) {

@@ -74,6 +74,25 @@ class BoxReconstruction {
     directory_.write("09_floorplans.vtk",
                      "# vtk DataFile Version 3.0\nstorey\nASCII\nDATASET POLYDATA\n"
                      "POINTS 4 double\n0 0 3\n4 0 3\n4 3 3\n0 3 3\nLINES 1 6\n5 0 1 2 3 0\n");
+    for (std::size_t i = 0; i < sliced.size(); ++i) {  // halves of the wall are two regions
+      const std::size_t slice = i / 10;
+      sliced[i].label = static_cast<std::uint32_t>(2 * slice + (i % 10 < 5 ? 1 : 2));
+    }
+    sliced.resize(30);
+    io::writeCloud(file("07_regions.pcd"), sliced);
+  }
+
+  /// The southern wall, seen in two runs; two blocks of two cells, the eastern one inside in both,
+  /// the western one in the lower block.
+  void writePlans() const {
+    directory_.write("09_walls.geojson", R"({"features": [{"properties": {"normal": [0, -1],
+      "z_min": 1, "z_max": 6}, "geometry": {"coordinates": [[[0, 0], [1.5, 0]],
+      [[2, 0], [4, 0]]]}}]})");
+    directory_.write("09_cells.geojson", R"({"blocks": [[0, 4], [4, 6]], "features": [
+      {"properties": {"inside": [0]}, "geometry": {"coordinates":
+        [[[0, 0], [2, 0], [2, 3], [0, 3], [0, 0]]]}},
+      {"properties": {"inside": [0, 1]}, "geometry": {"coordinates":
+        [[[2, 0], [4, 0], [4, 3], [2, 3], [2, 0]]]}}]})");
   }
 
  private:

@@ -7,6 +7,7 @@
 #include <storey/segmentation/detail/wall_points.h>
 #include <storey/segmentation/floorplan.h>
 
+#include <utility>
 #include <vector>
 
 namespace storey::detail {
@@ -27,6 +28,7 @@ struct BuildingFloorplans {
   std::vector<std::size_t> levels;   ///< bins of the layers
   double gap = 0.0;                  ///< cost of a wall not seen that was worked with
   std::vector<CellBlock> blocks;
+  std::vector<std::pair<double, double>> block_heights;  ///< z_min, z_max; parallel to `blocks`
   std::vector<OutlineTradeOff> trade_off;  ///< from the default towards simpler models
   std::vector<FloorplanLayer> layers;  ///< parallel to `blocks` that have an outline, bottom to top
 };
