@@ -80,25 +80,32 @@ std::vector<TexelMark> marksOf(const TextureGrid& grid, const BandGrid& bands,
   return marks;
 }
 
-/// The grid of the windows, its edges fitted, and the scores it was found in.
-BandGrid findGrid(const TextureGrid& grid, const std::vector<RectifiedView>& views,
-                  const std::vector<Eigen::Vector2d>& outline, WindowScores& combined) {
-  constexpr int kRounds = 2;  // the first one learns from the mark, the second from what it found
-  std::vector<TexelMark> marks = marksOf(grid, outline);
-  const BandGrid start = bandsAbout(grid, outline);
-  Band column = start.columns[0];
-  Band row = start.rows[0];
-  BandGrid bands;
-  std::vector<WindowScores> scores;
-  for (int round = 0; round < kRounds; ++round) {
-    scores = detail::labelTexels(grid, views, marks);
-    combined = detail::combineScores(views, scores);
-    bands = detail::fitBandGrid(combined, column, row);
-    if (bands.columns.empty() || bands.rows.empty()) return {};
-    column = bands.columns[bands.columns.size() / 2];
-    row = bands.rows[bands.rows.size() / 2];
-    if (round + 1 < kRounds) marks = marksOf(grid, bands, combined);
+/// Only the photo that was drawn on, if it is among the views: what hides the marked window in
+/// others would be learnt as window.
+std::vector<RectifiedView> drawnOn(const std::vector<RectifiedView>& views, std::size_t photo) {
+  for (const RectifiedView& view : views) {
+    if (view.photo == static_cast<int>(photo)) return {view};
   }
+  return views;
+}
+
+/// The grid of the windows, its edges fitted, and the scores it was found in. The first grid is
+/// learnt from the mark, the second in all photos from the first.
+BandGrid findGrid(const TextureGrid& grid, const std::vector<RectifiedView>& views,
+                  std::size_t photo, const std::vector<Eigen::Vector2d>& outline,
+                  WindowScores& combined) {
+  const std::vector<RectifiedView> first = drawnOn(views, photo);
+  combined = detail::combineScores(first, detail::labelTexels(grid, first, marksOf(grid, outline)));
+  BandGrid bands = bandsAbout(grid, outline);
+  bands = detail::fitBandGrid(combined, bands.columns[0], bands.rows[0]);
+  if (bands.columns.empty() || bands.rows.empty()) return {};
+
+  const std::vector<WindowScores> scores =
+      detail::labelTexels(grid, views, marksOf(grid, bands, combined));
+  combined = detail::combineScores(views, scores);
+  bands = detail::fitBandGrid(combined, bands.columns[bands.columns.size() / 2],
+                              bands.rows[bands.rows.size() / 2]);
+  if (bands.columns.empty() || bands.rows.empty()) return {};
   return detail::fitEdges(views, scores, bands);
 }
 
@@ -169,7 +176,7 @@ WindowGrid detectWindows(const std::vector<Facade>& facades, const std::vector<F
   }
   for (const RectifiedView& view : views) result.photos.push_back(view.photo);
   WindowScores scores;
-  const BandGrid bands = findGrid(grid, views, marked.outline, scores);
+  const BandGrid bands = findGrid(grid, views, mark.photo, marked.outline, scores);
   result.windows = windowsOf(grid, bands, scores);
   if (result.windows.empty()) {
     result.problem = "nothing on the facade looks like what the quadrilateral marks";

@@ -92,8 +92,8 @@ bool markOn(const Rendered& rendered, std::size_t facade, WindowMark& mark) {
 }
 
 TEST(RenderedWindows, Explore) {
-  for (const char* name : {"box", "l_shape", "two_towers", "hexagon", "overhang"}) {
-    for (const double recess : {0.0, 0.3}) {
+  for (const char* name : {"hexagon", "two_towers"}) {
+    for (const double recess : {0.3}) {
       PhotoOptions options;
       options.views = 10;
       options.width = 1024;
@@ -104,7 +104,7 @@ TEST(RenderedWindows, Explore) {
       for (std::size_t f = 0; f < rendered.scene.facades().size(); ++f) {
         const auto& truth = rendered.scene.paints()[f].windows();
         WindowMark mark;
-        if (truth.size() < 8 || !markOn(rendered, f, mark)) continue;
+        if ((f != 2 && f != 6 && f != 7) || truth.size() < 8 || !markOn(rendered, f, mark)) continue;
         const std::clock_t start = std::clock();
         const WindowGrid grid = detectWindows(rendered.scene.facades(), rendered.photos, mark);
         const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
