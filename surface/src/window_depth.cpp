@@ -10,13 +10,21 @@ namespace {
 
 constexpr int kSamples = 24;                           // across a window and up it
 constexpr int kLeastCommon = kSamples * kSamples / 4;  // samples that two photos must share
-constexpr std::size_t kMaxWindows = 40;                // more tell nothing new
+constexpr double kBlur = 1.5;  // pixels of a photo that an edge is spread over, to either side
+constexpr std::size_t kMaxWindows = 40;  // more tell nothing new
+
+/// A photo that sees a window. Nearer to the opening's edge than `rim`, its pixels mix in the wall.
+struct WindowView {
+  const TexturePhoto* photo;
+  double rim;  // in the model's unit
+};
 
 /// Brightness of the samples of a window's pane in a photo; NaN where it does not show them.
 using PaneSamples = Eigen::ArrayXf;
 
-PaneSamples samplePane(const TextureGrid& grid, const TexturePhoto& photo,
-                       const FacadeWindow& window, double depth) {
+PaneSamples samplePane(const TextureGrid& grid, const WindowView& view, const FacadeWindow& window,
+                       double depth) {
+  const TexturePhoto& photo = *view.photo;
   PaneSamples samples =
       PaneSamples::Constant(kSamples * kSamples, std::numeric_limits<float>::quiet_NaN());
   const Eigen::Vector2d size = window.max - window.min;
@@ -29,8 +37,8 @@ PaneSamples samplePane(const TextureGrid& grid, const TexturePhoto& photo,
     const Eigen::Vector3d opening = point + depth / to_eye.dot(normal) * to_eye;
     const Eigen::Vector2d through = grid.frame.local(opening);
     Sighting sighting;
-    if ((through - window.min).minCoeff() < grid.texel) continue;
-    if ((window.max - through).minCoeff() < grid.texel) continue;
+    if ((through - window.min).minCoeff() < view.rim) continue;
+    if ((window.max - through).minCoeff() < view.rim) continue;
     if (!sight(photo, grid.frame, point, sighting)) continue;
     samples[i] =
         photo.pyramid.sample(sighting.pixel, sighting.pixels_per_length * grid.texel).mean();
@@ -60,11 +68,11 @@ double correlation(const PaneSamples& a, const PaneSamples& b) {
 }
 
 /// Mean correlation of all pairs of photos that see a window, at one depth; NaN if none do.
-double agreement(const TextureGrid& grid, const std::vector<const TexturePhoto*>& photos,
+double agreement(const TextureGrid& grid, const std::vector<WindowView>& views,
                  const FacadeWindow& window, double depth) {
   std::vector<PaneSamples> samples;
-  for (const TexturePhoto* photo : photos) {
-    samples.push_back(samplePane(grid, *photo, window, depth));
+  for (const WindowView& view : views) {
+    samples.push_back(samplePane(grid, view, window, depth));
   }
   double sum = 0.0;
   int pairs = 0;
@@ -102,10 +110,11 @@ Eigen::ArrayXXd agreements(const TextureGrid& grid, const FacadeSight& facades,
     const FacadeWindow& window = windows[static_cast<std::size_t>(w)];
     const Eigen::Vector2d middle = 0.5 * (window.min + window.max);
     const Eigen::Vector3d point = grid.frame.point(middle.x(), middle.y());
-    std::vector<const TexturePhoto*> seeing;
+    std::vector<WindowView> seeing;
     for (const RectifiedView& view : views) {
       const TexturePhoto& photo = photos[static_cast<std::size_t>(view.photo)];
-      if (!facades.isBlocked(photo.center, point, grid.facade)) seeing.push_back(&photo);
+      if (facades.isBlocked(photo.center, point, grid.facade)) continue;
+      seeing.push_back({&photo, kBlur * grid.texel / std::min(1.0, view.sharpness)});
     }
     for (Eigen::Index d = 0; d < depths.size(); ++d) {
       table(w, d) = agreement(grid, seeing, window, depths[d]);

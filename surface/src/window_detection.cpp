@@ -120,7 +120,7 @@ bool isOnFacade(const TextureGrid& grid, const FacadeWindow& window) {
 
 std::vector<FacadeWindow> windowsOf(const TextureGrid& grid, const BandGrid& bands,
                                     const WindowScores& scores) {
-  constexpr double kLeastConfidence = 0.65;
+  constexpr double kLeastConfidence = 0.5;
   constexpr double kLeastSeen = 0.5;  // of the window
   std::vector<FacadeWindow> windows;
   for (std::size_t row = bands.rows.size(); row-- > 0;) {

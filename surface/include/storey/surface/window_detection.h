@@ -10,7 +10,7 @@
 
 namespace storey {
 
-/// What a user draws: a quadrilateral around a window or a few, on one photo.
+/// What a user draws: a quadrilateral around a window, on one photo.
 struct WindowMark {
   std::size_t photo = 0;
   std::array<Eigen::Vector2d, 4> corners;  ///< pixels, around it in either sense
@@ -22,8 +22,8 @@ struct FacadeWindow {
   Eigen::Vector2d max;
   int column = 0;  ///< of the grid, from the left
   int row = 0;     ///< of the grid, from below
-  /// In [0, 1]: how far it differs from the wall about it, as the photos that show it say. 0.5: as
-  /// much wall as window.
+  /// In [0, 1]: how far it differs from the wall about it, as the photos that show it say;
+  /// doubtful below 0.5.
   double confidence = 0.0;
   bool doubtful = false;  ///< of little confidence, or seen by less than a half
 };
