@@ -145,7 +145,8 @@ WindowDepth findDepth(const TextureGrid& grid, const FacadeSight& facades,
                       const std::vector<TexturePhoto>& photos,
                       const std::vector<RectifiedView>& views,
                       const std::vector<FacadeWindow>& windows) {
-  constexpr double kStep = 0.5;  // texels: a quarter of what edges are blurred over
+  constexpr double kLeastAgreement = 0.5;  // correlation: half of what photos show is the same
+  constexpr double kStep = 0.5;            // texels: a quarter of what edges are blurred over
   const std::vector<FacadeWindow> selected = select(windows);
   if (selected.empty() || views.size() < 2) return {};
   const Eigen::Vector2d size = selected[0].max - selected[0].min;
@@ -166,7 +167,7 @@ WindowDepth findDepth(const TextureGrid& grid, const FacadeSight& facades,
   Eigen::Index best = 0;
   means.maxCoeff(&best);
   WindowDepth result;
-  result.known = means[best] > 0.0;
+  result.known = means[best] > kLeastAgreement;
   if (!result.known || best == 0 || best == depths.size() - 1) return result;
   const double depth =
       depths[best] + kStep * grid.texel * peak(means[best - 1], means[best], means[best + 1]);

@@ -10,7 +10,7 @@ namespace storey::detail {
 
 struct WindowDepth {
   double depth = 0.0;  ///< behind the facade, in the model's unit; 0: as the facade, painted
-  bool known = false;  ///< two photos or more show the same panes
+  bool known = false;  ///< photos show the same panes: their correlation is above a half
 };
 
 /// How far the panes lie behind the facade: the depth at which all photos agree best on what they
