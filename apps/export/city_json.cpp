@@ -77,8 +77,10 @@ class VertexPool {
   std::vector<Integers> vertices_;
 };
 
-const char* surfaceType(FaceLabel label) {
-  switch (label) {
+const char* surfaceType(const PolyhedralFace& face) {
+  if (face.window == WindowPart::Pane) return "Window";
+  if (face.window == WindowPart::Reveal) return "WallSurface";
+  switch (face.label) {
     case FaceLabel::Wall:
       return "WallSurface";
     case FaceLabel::Roof:
@@ -92,7 +94,7 @@ const char* surfaceType(FaceLabel label) {
 }
 
 Json describeSurface(const PolyhedralFace& face, bool fitted) {
-  Json surface = {{"type", surfaceType(face.label)}};
+  Json surface = {{"type", surfaceType(face)}};
   if (face.wall >= 0) surface["wall"] = face.wall;
   if (!fitted) return surface;
   surface["hypothetical"] = face.hypothetical;

@@ -11,15 +11,19 @@
 
 namespace storey::exports {
 
-/// Colours of faces, shares of red, green and blue, in the order of `FaceLabel`.
-constexpr std::array<std::array<double, 3>, io::kNumLabels> kFaceColours = {
-    {{0.85, 0.82, 0.76}, {0.70, 0.34, 0.28}, {0.45, 0.45, 0.42}, {0.60, 0.58, 0.66}}};
+/// Colours of faces, shares of red, green and blue, in the order of `io::kLabelNames`.
+constexpr std::array<std::array<double, 3>, io::kNumLabels> kFaceColours = {{{0.85, 0.82, 0.76},
+                                                                             {0.70, 0.34, 0.28},
+                                                                             {0.45, 0.45, 0.42},
+                                                                             {0.60, 0.58, 0.66},
+                                                                             {0.36, 0.50, 0.62},
+                                                                             {0.74, 0.71, 0.66}}};
 
 /// A material for each label, and after them one for each label of faces that are guessed.
 constexpr std::size_t kNumMaterials = 2 * std::size_t{io::kNumLabels};
 
 inline std::size_t materialOf(const PolyhedralFace& face) {
-  return static_cast<std::size_t>(face.label) + (face.hypothetical ? io::kNumLabels : 0);
+  return std::size_t{io::fileLabel(face)} + (face.hypothetical ? io::kNumLabels : 0);
 }
 
 inline std::string materialName(std::size_t material) {

@@ -90,7 +90,9 @@ PolyhedralModel blockOver(const PolyhedralModel& model, int shell) {
   for (const PolyhedralFace& face : model.faces) {
     if (face.shell != shell) continue;
     for (const int i : face.outer) box.extend(vertexOf(model, i));
-    if (face.label == FaceLabel::Roof) roofs.push_back({0.0, 0.0, {{outlineOf(model, face)}}});
+    const bool is_sill = face.window != WindowPart::None;
+    if (face.label == FaceLabel::Roof && !is_sill)
+      roofs.push_back({0.0, 0.0, {{outlineOf(model, face)}}});
   }
   for (FloorplanLayer& roof : roofs) {  // layers at the same height are united
     roof.z_min = box.min().z();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "export/local_mesh.h"
+#include "io/label_names.h"
 #include "io/output_file.h"
 
 namespace storey::exports {
@@ -35,7 +36,7 @@ void writeFaceData(io::OutputFile& file, const LocalMesh& mesh, const Polyhedral
   };
   using Face = PolyhedralFace;
   writeCellData(file, mesh, "face", "int", [](std::size_t f) { return static_cast<long long>(f); });
-  integers("label", [](const Face& f) { return static_cast<int>(f.label); });
+  integers("label", [](const Face& f) { return int{io::fileLabel(f)}; });
   integers("wall", [](const Face& f) { return f.wall; });
   integers("shell", [](const Face& f) { return f.shell; });
   integers("hypothetical", [](const Face& f) { return f.hypothetical; });

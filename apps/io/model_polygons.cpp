@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "io/failure.h"
+#include "io/label_names.h"
 #include "io/model_io.h"
 
 namespace storey::io {
@@ -17,7 +18,7 @@ PolygonSoup toPolygons(const PolyhedralModel& model) {
   }
   for (const PolyhedralFace& face : model.faces) {
     PolygonSoup::Polygon polygon;
-    polygon.label = static_cast<std::uint8_t>(face.label);
+    polygon.label = fileLabel(face);
     polygon.wall = face.wall;
     polygon.shell = face.shell;
     polygon.hypothetical = face.hypothetical;

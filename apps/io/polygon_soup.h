@@ -12,7 +12,7 @@ namespace storey::io {
 struct PolygonSoup {
   struct Polygon {
     std::vector<int> corners;   ///< >= 3 indices into `vertices`, counter-clockwise from outside
-    std::uint8_t label = 0;     ///< `FaceLabel`: 0 wall, 1 roof, 2 ground, 3 ceiling
+    std::uint8_t label = 0;     ///< place in `kLabelNames`: 0 wall, 1 roof, ...
     int wall = -1;              ///< `PolyhedralFace::wall`
     int shell = 0;              ///< index of the closed part it belongs to
     bool hypothetical = false;  ///< guessed, not seen in the points: `PolyhedralFace`

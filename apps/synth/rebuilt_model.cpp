@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "io/label_names.h"
+
 namespace storey::synth {
 namespace {
 
@@ -59,13 +61,20 @@ Vector3d areaNormal(const std::vector<Vector3d>& vertices, const std::vector<int
   return sum;
 }
 
+WindowPart windowPartOf(const io::PolygonSoup::Polygon& piece) {
+  if (piece.label == io::kWindowLabel) return WindowPart::Pane;
+  return piece.label == io::kRevealLabel ? WindowPart::Reveal : WindowPart::None;
+}
+
 FaceLabel labelOf(const io::PolygonSoup::Polygon& piece, const Vector3d& normal) {
   constexpr double kHorizontal = 0.9;  // of the normal's z
-  const auto label = static_cast<FaceLabel>(piece.label);
+  const bool of_window = windowPartOf(piece) != WindowPart::None;
+  const auto label = of_window ? FaceLabel::Wall : static_cast<FaceLabel>(piece.label);
   if (label != FaceLabel::Wall || std::abs(normal.z()) < kHorizontal) {
     return label;
   }
-  return normal.z() > 0.0 ? FaceLabel::Roof : FaceLabel::Ground;
+  if (normal.z() > 0.0) return FaceLabel::Roof;
+  return of_window ? FaceLabel::Ceiling : FaceLabel::Ground;
 }
 
 PolyhedralFace faceOf(const io::PolygonSoup& soup, const std::vector<std::size_t>& pieces,
@@ -85,15 +94,21 @@ PolyhedralFace faceOf(const io::PolygonSoup& soup, const std::vector<std::size_t
   rings.erase(outer);
   face.inner = rings;
   face.label = labelOf(first, areaNormal(vertices, face.outer).normalized());
+  face.window = windowPartOf(first);
   face.wall = first.wall;
   face.shell = first.shell;
   face.hypothetical = first.hypothetical;
   return face;
 }
 
+Eigen::Quaterniond turnUpright(const Vector3d& up) {
+  return up == Vector3d::UnitZ() ? Eigen::Quaterniond::Identity()
+                                 : Eigen::Quaterniond::FromTwoVectors(up, Vector3d::UnitZ());
+}
+
 /// Vertices relative to the first, with `up` along +z, and the grid for their extent.
 std::vector<Vector3d> upright(const io::PolygonSoup& soup, const Vector3d& up, double& grid) {
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(up, Vector3d::UnitZ());
+  const Eigen::Quaterniond turn = turnUpright(up);
   const bool is_upright = up == Vector3d::UnitZ();
   std::vector<Vector3d> vertices;
   Eigen::AlignedBox3d box;
@@ -138,6 +153,13 @@ PolyhedralModel rebuildModel(const io::PolygonSoup& soup, const PolygonMesh& mes
     model.faces.push_back(face);
   }
   return model;
+}
+
+Eigen::Isometry3d rebuiltToFile(const io::PolygonSoup& soup, const Vector3d& up) {
+  Eigen::Isometry3d to_file = Eigen::Isometry3d::Identity();
+  to_file.linear() = turnUpright(up).inverse().toRotationMatrix();
+  to_file.translation() = soup.vertices[0];
+  return to_file;
 }
 
 }  // namespace storey::synth

@@ -4,6 +4,7 @@
 #include <storey/surface/polyhedral_model.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "io/polygon_soup.h"
 #include "synth/polygon_mesh.h"
@@ -19,5 +20,8 @@ namespace storey::synth {
 /// \param up unit length
 PolyhedralModel rebuildModel(const io::PolygonSoup& soup, const PolygonMesh& mesh,
                              const Eigen::Vector3d& up);
+
+/// From the coordinates of such a model to those of the file.
+Eigen::Isometry3d rebuiltToFile(const io::PolygonSoup& soup, const Eigen::Vector3d& up);
 
 }  // namespace storey::synth

@@ -18,12 +18,20 @@ enum class FaceLabel {
   Ceiling,  ///< faces down, under an overhang
 };
 
+/// What a face is of a window that `cutWindows` made. Its `FaceLabel` says which way it faces.
+enum class WindowPart {
+  None,    ///< not of a window
+  Pane,    ///< parallel to the wall
+  Reveal,  ///< between wall and pane
+};
+
 /// A planar polygon. Seen from outside the solid the outer ring runs counter-clockwise and the
 /// inner rings (holes) clockwise. Rings hold indices into `PolyhedralModel::vertices`.
 struct PolyhedralFace {
   std::vector<int> outer;
   std::vector<std::vector<int>> inner;
   FaceLabel label = FaceLabel::Wall;
+  WindowPart window = WindowPart::None;
   int wall = -1;              ///< `FloorplanEdge::wall` of a wall face, else -1
   int shell = 0;              ///< index of the shell that the face belongs to
   bool hypothetical = false;  ///< guessed: a wall that completion made, or a face of which less
