@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "io/label_names.h"
+
 namespace storey::synth {
 namespace {
 
@@ -42,6 +44,15 @@ PolyhedralModel onLattice(const io::PolygonSoup& soup) {
   return model;
 }
 
+/// Which way a polygon faces: what its label says, or, of the parts of windows, its normal.
+FaceLabel facing(const io::PolygonSoup& soup, const io::PolygonSoup::Polygon& polygon) {
+  constexpr double kLevel = 0.5;  // of the normal: walls and level faces are far from it
+  if (polygon.label < io::kWindowLabel) return static_cast<FaceLabel>(polygon.label);
+  const double up = areaNormal(soup, polygon).normalized().z();
+  if (std::abs(up) < kLevel) return FaceLabel::Wall;
+  return up > 0.0 ? FaceLabel::Roof : FaceLabel::Ceiling;
+}
+
 void triangulate(const io::PolygonSoup& soup, PolygonMesh& mesh) {
   mesh.triangles.vertices = soup.vertices;
   const PolyhedralModel lattice = onLattice(soup);
@@ -51,7 +62,7 @@ void triangulate(const io::PolygonSoup& soup, PolygonMesh& mesh) {
     if (corners.size() > 3) {
       PolyhedralFace face;
       face.outer = corners;
-      face.label = static_cast<FaceLabel>(soup.polygons[i].label);
+      face.label = facing(soup, soup.polygons[i]);
       triangles = triangulateFace(lattice, face);
     }
     mesh.num_broken += triangles.empty() ? 1 : 0;
