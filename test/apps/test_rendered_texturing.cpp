@@ -1,32 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Textures of generated buildings against what they were painted with.
 #include <gtest/gtest.h>
-#include <storey/surface/extrusion.h>
 #include <storey/surface/facade_texturing.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "synth/buildings.h"
-#include "synth/photos/photo_scene.h"
+#include "rendered_building.h"
 
 namespace storey::synth {
 namespace {
 
 constexpr double kTargetPsnr = 28.0;  // dB
-
-struct Rendered {
-  PolyhedralModel model;
-  PhotoScene scene;
-  std::vector<FacadePhoto> photos;
-
-  Rendered(const char* name, const PhotoOptions& options)
-      : model(extrudeFloorplans(makeBuilding(name).layers)), scene(model, options) {
-    for (const Camera& camera : scene.placeCameras()) {
-      photos.push_back({camera, scene.photograph(camera, static_cast<int>(photos.size()))});
-    }
-  }
-};
 
 PhotoOptions smallPhotos() {
   PhotoOptions options;

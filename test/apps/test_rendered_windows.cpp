@@ -10,24 +10,10 @@
 #include <cmath>
 #include <string>
 
-#include "synth/buildings.h"
-#include "synth/photos/photo_scene.h"
+#include "rendered_building.h"
 
 namespace storey::synth {
 namespace {
-
-struct Rendered {
-  PolyhedralModel model;
-  PhotoScene scene;
-  std::vector<FacadePhoto> photos;
-
-  Rendered(const char* name, const PhotoOptions& options)
-      : model(extrudeFloorplans(makeBuilding(name).layers)), scene(model, options) {
-    for (const Camera& camera : scene.placeCameras()) {
-      photos.push_back({camera, scene.photograph(camera, static_cast<int>(photos.size()))});
-    }
-  }
-};
 
 struct Score {
   int found = 0;
