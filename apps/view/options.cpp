@@ -82,7 +82,7 @@ bool parseOptions(int argc, char** argv, Options& options) {
       "PNG files. Stages but the model need what its --intermediate writes. Pictures need a "
       "display,\n"
       "of which nothing is seen; on a machine without one:\n"
-      "xvfb-run -a -s '-screen 0 1600x1200x24' storey_view ...");
+      "xvfb-run -a -s '-screen 0 1600x1200x24 -noreset' storey_view ...");
   line.argument("directory", options.directory, "the output directory of storey_reconstruct");
   line.flag("pictures", options.pictures,
             "write a picture of every stage into the directory; stages without files are left out");

@@ -58,7 +58,7 @@ ViewerWindow::ViewerWindow(const Reconstruction& reconstruction, ViewerState sta
   vtkObject::GlobalWarningDisplayOff();  // what matters is said by a Failure, in one line
   requireOpenGl(display_,
                 "run it where there is a screen; files are drawn without one by: xvfb-run -a -s "
-                "'-screen 0 1600x1200x24' storey_view DIRECTORY --pictures");
+                "'-screen 0 1600x1200x24 -noreset' storey_view DIRECTORY --pictures");
   prepare(size);
   prepareSlider();
   draw();

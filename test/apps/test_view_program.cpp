@@ -33,7 +33,7 @@ bool findDisplay(std::string& prefix) {
   const char* const display = std::getenv("DISPLAY");
   prefix = "";
   if (display != nullptr && *display != '\0') return true;
-  prefix = "xvfb-run -a -s '-screen 0 1600x1200x24' ";
+  prefix = "xvfb-run -a -s '-screen 0 1600x1200x24 -noreset' ";
   return haveVirtualDisplay();
 }
 
@@ -97,7 +97,7 @@ TEST(ViewProgram, ADisplayWithoutOpenGlIsToldBeforeItEndsTheProgram) {
   for (const char* const screen : {"640x480x24 -extension GLX", "640x480x8"}) {
     const Outcome outcome =
         runView(box.path() + " --picture " + box.file("a.png") + " --stage model",
-                std::string("xvfb-run -a -s '-screen 0 ") + screen + "' ");
+                std::string("xvfb-run -a -s '-screen 0 ") + screen + " -noreset' ");
     EXPECT_EQ(outcome.status, 75) << screen << outcome.message;
     EXPECT_FALSE(std::filesystem::exists(box.file("a.png")));
   }

@@ -144,7 +144,7 @@ int main(int argc, char** argv) {
   if (std::getenv("DISPLAY") == nullptr && std::getenv("STOREY_NO_DISPLAY") == nullptr) {
     setenv("STOREY_NO_DISPLAY", "1", 1);  // do not try again
     std::vector<char*> command;
-    std::string words[] = {"xvfb-run", "-a", "-s", "-screen 0 1600x1200x24"};
+    std::string words[] = {"xvfb-run", "-a", "-s", "-screen 0 1600x1200x24 -noreset"};
     for (std::string& word : words) command.push_back(word.data());
     command.insert(command.end(), argv, argv + argc + 1);  // with the null at the end
     execvp(command[0], command.data());                    // returns if there is no xvfb-run
