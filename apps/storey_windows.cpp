@@ -99,7 +99,7 @@ int run(int argc, char** argv) {
     throw io::Failure(io::BadInput, cameras.photos[mark.photo].image, found.grid.problem,
                       "draw the quadrilateral around a window on one wall");
   }
-  request.format->write(request.output, {solid.model, solid.to_file});
+  request.format->write(request.output, {solid.model, solid.to_file, solid.crs});
   print(found);
   return io::Ok;
 }

@@ -187,12 +187,14 @@ void writeCityJson(const std::string& path, const Exported& exported) {
   Json city = {{"type", "CityJSON"}, {"version", "2.0"}};
   city["transform"] = pool.transform();
   city["metadata"] = {{"geographicalExtent", pool.extent()}};
-  const std::string authority = "EPSG:";  // the format has no place for a name that has no code
+  city["CityObjects"] = cityObjects(exported, pool);
+  const std::string authority = "EPSG:";
   if (exported.crs.rfind(authority, 0) == 0) {
     city["metadata"]["referenceSystem"] =
         "https://www.opengis.net/def/crs/EPSG/0/" + exported.crs.substr(authority.size());
+  } else if (!exported.crs.empty()) {  // the format's own member has no place for a mere name
+    city["CityObjects"]["building"]["attributes"]["crs"] = exported.crs;
   }
-  city["CityObjects"] = cityObjects(exported, pool);
   city["vertices"] = pool.vertices();
   io::OutputFile file(path);
   file.write(city.dump() + "\n");

@@ -105,6 +105,10 @@ void writeDxf(const std::string& path, const Exported& exported) {
   const std::vector<FloorplanLayer>& storeys = exported.model.storeys;
   const Eigen::Isometry3d frame = io::planFrame(exported.local_to_input);
   DxfFile dxf(path);
+  constexpr std::size_t kMaxValue = 255;  // characters of R12
+  for (std::size_t at = 0; at < exported.crs.size(); at += kMaxValue) {
+    dxf.put(999, exported.crs.substr(at, kMaxValue));  // a comment
+  }
   writeHeader(dxf, boxOf(storeys, frame));
   writeLayerTable(dxf, storeys.size());
   dxf.put(0, "SECTION");

@@ -17,7 +17,7 @@ namespace storey::exports {
 namespace {
 
 void writePly(const std::string& path, const Exported& exported) {
-  io::writeModelPly(path, exported.model, exported.local_to_input);
+  io::writePolygonsPly(path, io::toPolygons(exported.model, exported.crs), exported.local_to_input);
 }
 
 void writeGeoJson(const std::string& path, const Exported& exported) {

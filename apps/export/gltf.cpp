@@ -44,6 +44,7 @@ class GltfBuilder {
   explicit GltfBuilder(const Exported& exported)
       : exported_(exported), mesh_(toLocalMesh(exported)) {
     json_["asset"] = {{"version", "2.0"}, {"generator", "storey"}};
+    if (!exported.crs.empty()) json_["asset"]["extras"] = {{"crs", exported.crs}};
     json_["scene"] = 0;
     json_["scenes"] = Json::array({{{"nodes", {0}}}});
     const Eigen::Vector3d origin = yUp(mesh_.origin);

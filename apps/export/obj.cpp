@@ -21,7 +21,7 @@ void writeObj(const std::string& path, const Exported& exported) {
     file.write("\n");
   }
   file.commit();  // first: an OBJ never names a library that is not there
-  io::writePolygonsObj(path, io::toPolygons(exported.model), exported.local_to_input,
+  io::writePolygonsObj(path, io::toPolygons(exported.model, exported.crs), exported.local_to_input,
                        library.filename().string());
 }
 

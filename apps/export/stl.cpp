@@ -11,12 +11,19 @@
 
 namespace storey::exports {
 
+namespace {
+
+constexpr std::size_t kHeaderSize = 80;
+
+}  // namespace
+
 void writeStl(const std::string& path, const Exported& exported) {
   const LocalMesh mesh = toLocalMesh(exported);
   io::OutputFile file(path);
   std::string header = "storey";  // short: three doubles may have 24 characters each
   for (const double coordinate : mesh.origin) header += " " + numberText(coordinate);
-  header.resize(80, ' ');
+  if (header.size() + 1 + exported.crs.size() <= kHeaderSize) header += " " + exported.crs;
+  header.resize(kHeaderSize, ' ');
   file.write(header);
   const auto count = static_cast<std::uint32_t>(mesh.countTriangles());
   file.write(&count, sizeof count);  // the host is little-endian

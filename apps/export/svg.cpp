@@ -37,6 +37,14 @@ std::string attribute(const char* name, double value) {
   return std::string(" ") + name + "=\"" + numberText(value) + "\"";
 }
 
+std::string escaped(const std::string& text) {
+  std::string xml;
+  for (const char c : text) {
+    xml += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  }
+  return xml;
+}
+
 // 1, 2 or 5 times a power of ten, at most the given length.
 double roundLength(double length) {
   const double power = std::pow(10.0, std::floor(std::log10(length)));
@@ -46,7 +54,7 @@ double roundLength(double length) {
 class Drawing {
  public:
   explicit Drawing(const Exported& exported)
-      : model_(exported.model), frame_(io::planFrame(exported.local_to_input)) {
+      : model_(exported.model), crs_(exported.crs), frame_(io::planFrame(exported.local_to_input)) {
     for (const FloorplanLayer& storey : model_.storeys) {
       for (const FloorplanComponent& component : storey.plan.components) {
         for (const Eigen::Vector2d& v : component.outer.vertices) box_.extend(toPlan(frame_, v));
@@ -69,7 +77,8 @@ class Drawing {
             "\" height=\"" + height + "\" viewBox=\"0 0 " + width + " " + height +
             "\" font-family=\"sans-serif\" font-size=\"" + fixed(kFontSize, 0) + "\">\n" +
             "<title>Floorplans</title>\n<desc>relative to " + numberText(box_.min().x()) + " " +
-            numberText(box_.min().y()) + "</desc>\n" + styleOf(scale_);
+            numberText(box_.min().y()) + (crs_.empty() ? "" : " in " + escaped(crs_)) +
+            "</desc>\n" + styleOf(scale_);
     for (std::size_t k = 0; k < model_.storeys.size(); ++k) drawStorey(k);
     drawBar(bar_top);
     return text_ + "</svg>\n";
@@ -161,9 +170,9 @@ class Drawing {
       double angle = std::atan2(-along.y(), along.x()) * 180.0 / M_PI;  // y runs down
       if (angle > 90.0) angle -= 180.0;                                 // never upside down
       if (angle <= -90.0) angle += 180.0;
-      text_ += "<text class=\"length\" dy=\"0.35em\" transform=\"translate(" + fixed(origin.x() + middle.x(), 1) +
-               " " + fixed(origin.y() - middle.y(), 1) + ") rotate(" + fixed(angle, 1) + ")\">" +
-               length + "</text>\n";
+      text_ += "<text class=\"length\" dy=\"0.35em\" transform=\"translate(" +
+               fixed(origin.x() + middle.x(), 1) + " " + fixed(origin.y() - middle.y(), 1) +
+               ") rotate(" + fixed(angle, 1) + ")\">" + length + "</text>\n";
     }
   }
 
@@ -179,6 +188,7 @@ class Drawing {
   }
 
   const PolyhedralModel& model_;
+  const std::string& crs_;
   Eigen::Isometry3d frame_;
   Eigen::AlignedBox2d box_;  ///< of all plans
   double scale_ = 1.0;       ///< drawing units a unit of the cloud

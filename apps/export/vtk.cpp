@@ -46,12 +46,30 @@ void writeFaceData(io::OutputFile& file, const LocalMesh& mesh, const Polyhedral
   numbers("deviation", [](const Face& f) { return f.deviation; });
 }
 
+// A string of VTK's files: what is no visible character of ASCII, and % and ", by its number.
+std::string encoded(const std::string& text) {
+  constexpr char kDigits[] = "0123456789ABCDEF";
+  std::string result;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte > 0x20 && byte < 0x7f && c != '%' && c != '"') {
+      result += c;
+    } else {
+      result += {'%', kDigits[byte / 16], kDigits[byte % 16]};
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 void writeVtk(const std::string& path, const Exported& exported) {
   const LocalMesh mesh = toLocalMesh(exported);
   io::OutputFile file(path);
   file.write("# vtk DataFile Version 3.0\nstorey\nASCII\nDATASET POLYDATA\n");
+  if (!exported.crs.empty()) {
+    file.write("FIELD FieldData 1\ncrs 1 1 string\n" + encoded(exported.crs) + "\n");
+  }
   file.write("POINTS " + std::to_string(exported.model.vertices.size()) + " double\n");
   for (const Eigen::Vector3d& vertex : exported.model.vertices) {
     const Eigen::Vector3d p = exported.local_to_input * vertex;

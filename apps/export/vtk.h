@@ -10,7 +10,7 @@ namespace storey::exports {
 /// Writes legacy VTK in text, which pcl_viewer and ParaView read: doubles in the input's
 /// coordinates, triangles (viewers fill concave polygons wrongly) with the index of their face and
 /// its label, wall, shell, hypothetical, support, coverage, residual and deviation (-1: not known)
-/// as cell data.
+/// as cell data. The reference system is the field `crs`.
 /// \throws io::Failure (CannotCreate, IoError)
 void writeVtk(const std::string& path, const Exported& exported);
 

@@ -17,29 +17,27 @@ enum class PlyEncoding { Ascii, Binary };
 
 /// The faces of a model as hole-free planar polygons over the model's vertices: faces with holes
 /// are cut (`splitHoles`), without new vertices and without new free edges.
-PolygonSoup toPolygons(const PolyhedralModel& model);
+/// \param crs of the coordinates that will be written; empty: not known
+PolygonSoup toPolygons(const PolyhedralModel& model, const std::string& crs = {});
 
 /// Writes polygons as PLY: `double x y z` and, for each face, the list `vertex_indices` and the
 /// properties label, wall, shell, hypothetical as in `PolygonSoup::Polygon`; of models that were
 /// fitted to points also support, coverage, residual and deviation of the faces, and the deviation
-/// of the vertices. Ascii numbers are the shortest that read back exactly; unknown is `inf`.
-/// \param local_to_input takes the vertices to the coordinates of the input cloud
-/// \throws Failure (CannotCreate, IoError)
+/// of the vertices; the reference system in a comment `storey crs`. Ascii numbers are the shortest
+/// that read back exactly; unknown is `inf`. \param local_to_input takes the vertices to the
+/// coordinates of the input cloud \throws Failure (CannotCreate, IoError)
 void writePolygonsPly(const std::string& path, const PolygonSoup& soup,
                       const Eigen::Isometry3d& local_to_input,
                       PlyEncoding encoding = PlyEncoding::Ascii);
 
 /// Writes polygons as OBJ: an object `shell_k` for each shell, in it a group for each label (wall,
-/// roof, ground, ceiling, window, reveal, with the second group name `hypothetical` for walls not seen).
-/// \param materials name of a library that has a material named like each label, and one with
+/// roof, ground, ceiling, window, reveal, with the second group name `hypothetical` for walls not
+/// seen). \param materials name of a library that has a material named like each label, and one
+/// with
 ///        `_hypothetical` after it; empty: none
 /// \throws Failure (CannotCreate, IoError)
 void writePolygonsObj(const std::string& path, const PolygonSoup& soup,
                       const Eigen::Isometry3d& local_to_input, const std::string& materials = {});
-
-void writeModelPly(const std::string& path, const PolyhedralModel& model,
-                   const Eigen::Isometry3d& local_to_input,
-                   PlyEncoding encoding = PlyEncoding::Ascii);
 
 /// The frame that floorplans are written in: the input's if `local_to_input` keeps the vertical,
 /// else the upright one (the identity).

@@ -10,8 +10,9 @@
 
 namespace storey::io {
 
-PolygonSoup toPolygons(const PolyhedralModel& model) {
+PolygonSoup toPolygons(const PolyhedralModel& model, const std::string& crs) {
   PolygonSoup soup;
+  soup.crs = crs;
   soup.vertices = model.vertices;
   for (std::size_t v = 0; v < model.covariances.size(); ++v) {
     soup.deviations.push_back(model.vertexDeviation(v));
@@ -43,11 +44,6 @@ PolygonSoup toPolygons(const PolyhedralModel& model) {
     }
   }
   return soup;
-}
-
-void writeModelPly(const std::string& path, const PolyhedralModel& model,
-                   const Eigen::Isometry3d& local_to_input, PlyEncoding encoding) {
-  writePolygonsPly(path, toPolygons(model), local_to_input, encoding);
 }
 
 }  // namespace storey::io

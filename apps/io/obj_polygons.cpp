@@ -5,6 +5,7 @@
 #include "io/failure.h"
 #include "io/label_names.h"
 #include "io/limits.h"
+#include "io/point_records.h"
 #include "io/polygon_builder.h"
 #include "io/scan.h"
 
@@ -28,7 +29,11 @@ class ObjReader {
     std::string_view line;
     while (file_.nextBodyLine(line)) {
       const Words words = splitWords(line);
-      if (words.empty() || words[0][0] == '#') continue;
+      if (words.empty()) continue;
+      if (words[0][0] == '#') {
+        if (auto note = noteOf(line.substr(line.find('#') + 1))) builder_.addNote(*note);
+        continue;
+      }
       statement(words);
     }
     return builder_.finish();

@@ -97,6 +97,7 @@ void readFaces(InputFile& file, const PlyElement& element, PlyFormat format,
 PolygonSoup readPlyPolygons(InputFile& file, std::uint64_t max_memory) {
   const PlyHeader header = readPlyHeader(file);
   PolygonBuilder builder(file, header.format == PlyFormat::Ascii);
+  for (const std::string& note : header.notes) builder.addNote(note);
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex") {
       file.checkMemory(element.count * kBytesPerVertex, max_memory, "its vertices");

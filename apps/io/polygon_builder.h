@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "io/crs.h"
 #include "io/input_file.h"
 #include "io/polygon_soup.h"
 
@@ -23,6 +25,11 @@ class PolygonBuilder {
 
   /// \param corners indices from 0, not yet checked; polygons may come before their vertices
   void addPolygon(const std::vector<std::int64_t>& corners, PolygonSoup::Polygon polygon);
+
+  /// What comments of the file that are ours tell (`noteOf`).
+  void addNote(const std::string& note) {
+    if (std::string crs = crsOfNote(note); !crs.empty()) soup_.crs = std::move(crs);
+  }
 
   std::size_t numVertices() const { return soup_.vertices.size(); }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace storey::io {
@@ -27,6 +28,7 @@ struct PolygonSoup {
   /// Expected displacement of each vertex, infinite where unknown; empty if the model was not
   /// fitted to points, and then nothing is known of the support of its polygons either.
   std::vector<double> deviations;
+  std::string crs;  ///< coordinate reference system of the file; empty: not known
 };
 
 }  // namespace storey::io

@@ -30,8 +30,8 @@ std::string plyHeader(const PolygonSoup& soup, const char* format, const char* c
   return std::string("ply\nformat ") + format +
          " 1.0\n"
          "comment made by storey, in the coordinates of the input cloud\n"
-         "comment label: 0 wall, 1 roof, 2 ground, 3 ceiling\n"
-         "element vertex " +
+         "comment label: 0 wall, 1 roof, 2 ground, 3 ceiling, 4 window, 5 reveal\n" +
+         (soup.crs.empty() ? "" : "comment storey crs " + soup.crs + "\n") + "element vertex " +
          std::to_string(soup.vertices.size()) +
          "\nproperty double x\nproperty double y\nproperty double z\n" +
          (fitted ? "property float deviation\n" : "") + "element face " +
@@ -152,6 +152,7 @@ void writePolygonsObj(const std::string& path, const PolygonSoup& soup,
                       const Eigen::Isometry3d& local_to_input, const std::string& materials) {
   OutputFile file(path);
   file.write("# made by storey, in the coordinates of the input cloud\n");
+  if (!soup.crs.empty()) file.write("# storey crs " + soup.crs + "\n");
   if (!materials.empty()) file.write("mtllib " + materials + "\n");
   for (const Eigen::Vector3d& vertex : soup.vertices) {
     file.write("v ");

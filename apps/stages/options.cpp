@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stages/options.h"
 
-#include "stages/crs.h"
+#include "io/crs.h"
 
 namespace storey::stages {
 
@@ -24,7 +24,7 @@ void declareAttitude(cli::CommandLine& line, AttitudeOptions& o) {
 void checkAttitude(const cli::CommandLine& line, AttitudeOptions& o) {
   if (line.given("up") && o.up.isZero()) line.fail("--up is zero, expected a direction");
   o.up.normalize();  // zero, where it is not given, stays zero
-  if (!isCrs(o.crs)) {
+  if (!io::isCrs(o.crs)) {
     line.fail("--crs is '" + o.crs + "', expected EPSG: and a number above 0, or a name");
   }
 }

@@ -4,8 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "io/crs.h"
 #include "io/scan.h"
-#include "stages/crs.h"
 
 namespace storey::stages {
 namespace {
@@ -40,7 +40,7 @@ class StateReader {
     key_ = note.substr(0, end);
     const std::string rest = note.substr(std::min(end + 1, note.size()));
     if (key_ == "crs") {
-      if (!isCrs(rest)) fail();
+      if (!io::isCrs(rest)) fail();
       state_.crs = rest;
     }
     if (key_ == "space") state_.inside = rest == "inside";

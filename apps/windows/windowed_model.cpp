@@ -33,6 +33,7 @@ SolidModel readSolid(const std::string& path) {
   const Eigen::Vector3d up = synth::upOfModel(soup);
   const synth::PolygonMesh mesh = synth::measurable(soup);
   SolidModel solid;
+  solid.crs = soup.crs;
   if (!soup.vertices.empty() && mesh.num_broken == 0) {
     solid.model = synth::rebuildModel(soup, mesh, up);
     solid.to_file = synth::rebuiltToFile(soup, up);

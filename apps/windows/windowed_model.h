@@ -18,6 +18,7 @@ namespace storey::windows {
 struct SolidModel {
   PolyhedralModel model;
   Eigen::Isometry3d to_file = Eigen::Isometry3d::Identity();
+  std::string crs;  ///< of the file; empty: not known
 };
 
 /// \throws io::Failure (BadInput) if the file's polygons are no valid solid

@@ -195,7 +195,7 @@ TEST(ModelIo, ModelsWithHolesBecomeClosedFilesWithoutHoles) {
   for (const std::string name : {"m.ply", "m.obj"}) {
     const std::string path = directory.file(name);
     if (name == "m.ply") {
-      io::writeModelPly(path, model, translation(1000, 2000, 0));
+      io::writePolygonsPly(path, io::toPolygons(model), translation(1000, 2000, 0));
     } else {
       io::writePolygonsObj(path, io::toPolygons(model), translation(1000, 2000, 0));
     }

@@ -178,7 +178,7 @@ TEST_F(StagePrograms, MistakesEndInOneLineAndTheRightStatus) {
   }
   expect("storey_vertical cloud.ply nowhere/out.pcd", 73, "nowhere/out.pcd");
   expect("storey_planar_confidence cloud.ply o.pcd --kept-share 2", 2, "--kept-share");
-  for (const char* const crs : {"25832", "EPSG:", "EPSG:0", "EPSG:x", "'a\nb'"}) {
+  for (const char* const crs : {"25832", "EPSG:", "EPSG:0", "EPSG:x", "'a\nb'", "a\xff"}) {
     expect(std::string("storey_vertical cloud.ply o.pcd --crs ") + crs, 2, "--crs");
   }
   // Out of their order: which program is missing.
