@@ -8,6 +8,7 @@
 #include "io/output_file.h"
 #include "reconstruct/intermediate.h"
 #include "reconstruct/options.h"
+#include "reconstruct/pictures.h"
 #include "reconstruct/pipeline.h"
 #include "reconstruct/report.h"
 #include "stages/stage_cloud_io.h"
@@ -18,6 +19,8 @@ namespace {
 int run(int argc, char** argv) {
   Options options;
   if (!parseOptions(argc, argv, options)) return io::Ok;
+  std::optional<PictureProgram> pictures;  // before the work, for it may not be there
+  if (options.pictures) pictures.emplace();
   std::optional<io::OutputDirectory> directory;  // made when there is something to write
   const auto file = [&](const std::string& name) {
     if (!directory) directory.emplace(options.output_directory);
@@ -46,6 +49,7 @@ int run(int argc, char** argv) {
     throw io::Failure(io::Internal, options.input, "the model failed its checks",
                       "see report.json, and report it with the cloud");
   }
+  if (pictures) pictures->draw(options.output_directory);
   return io::Ok;
 }
 

@@ -10,6 +10,7 @@
 #include "view/render.h"
 #include "view/stages.h"
 #include "view/viewer_window.h"
+#include "view/virtual_display.h"
 
 namespace storey::view {
 namespace {
@@ -23,6 +24,7 @@ struct Picture {
 // In the order of the method; numbers as those of the files that they show.
 constexpr Picture kPictures[] = {{"01_upright.png", Stage::Upright, View::Isometric},
                                  {"02_confidence.png", Stage::Confidence, View::Isometric},
+                                 {"02_classes.png", Stage::Classes, View::Isometric},
                                  {"03_directions.png", Stage::Directions, View::Isometric},
                                  {"04_slices.png", Stage::Slices, View::Isometric},
                                  {"05_normals.png", Stage::Normals, View::Isometric},
@@ -44,10 +46,10 @@ constexpr Picture kPictures[] = {{"01_upright.png", Stage::Upright, View::Isomet
 void writeAll(const Reconstruction& reconstruction, const PictureSize& size) {
   const PictureWriter writer(size);
   std::vector<std::string> written;
+  std::string left_out;
   for (const Picture& picture : kPictures) {
-    const std::string missing = missingFile(reconstruction, picture.stage);
-    if (!missing.empty()) {
-      std::fprintf(stderr, "%s left out: there is no %s\n", picture.file, missing.c_str());
+    if (!missingFile(reconstruction, picture.stage).empty()) {
+      left_out += std::string(left_out.empty() ? "" : ", ") + picture.file;
       continue;
     }
     const Drawing drawing = makeDrawing(reconstruction, picture.stage, picture.view, std::nullopt);
@@ -57,6 +59,9 @@ void writeAll(const Reconstruction& reconstruction, const PictureSize& size) {
   if (written.empty()) {
     throw io::Failure(io::MissingInput, reconstruction.file(""), "has nothing to draw",
                       "run storey_reconstruct again");
+  }
+  if (!left_out.empty()) {
+    std::fprintf(stderr, "left out, for there is nothing of these stages: %s\n", left_out.c_str());
   }
   if (reconstruction.has("report.html")) {
     exports::addPictures(reconstruction.file("report.html"), written);
@@ -89,6 +94,7 @@ void showAll(const Reconstruction& reconstruction, const Options& options) {
 int run(int argc, char** argv) {
   Options options;
   if (!parseOptions(argc, argv, options)) return io::Ok;
+  if (options.pictures || !options.picture.empty()) restartOnVirtualDisplay(argv);
   const Reconstruction reconstruction(options.directory);
   if (options.pictures) {
     writeAll(reconstruction, options.size);

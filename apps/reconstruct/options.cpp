@@ -52,12 +52,15 @@ bool parseOptions(int argc, char** argv, Options& o) {
   line.threads(o.threads);
   line.flag("intermediate", o.intermediate,
             "also write the cloud of each stage as binary PCD, for pcl_viewer");
+  line.flag("pictures", o.pictures,
+            "also draw every stage as PNG, into report.html too; writes what --intermediate does");
   stages::declareQuiet(line, o.quiet);
   if (!line.parse(argc, argv)) return false;
   if (o.input.empty()) line.fail("no cloud given");
   if (o.output_directory.empty()) line.fail("no output directory given (-o)");
   stages::checkAttitude(line, o.attitude);
   o.formats = parseFormats(line, formats);
+  o.intermediate |= o.pictures;
   return true;
 }
 

@@ -28,6 +28,7 @@ struct Options {
   stages::ModelOptions model;
   unsigned int threads = 0;
   bool intermediate = false;
+  bool pictures = false;  ///< of all stages: implies their clouds
   bool quiet = false;
   detail::MethodSteps steps;  ///< for experiments only: no option of the command line
 };

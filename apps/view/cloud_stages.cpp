@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The clouds of the stages, coloured by what the stage found out.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "io/failure.h"
@@ -80,6 +81,25 @@ Drawing drawConfidence(const Reconstruction& r, View view) {
   addCloud(drawing, cloud, view, [&](std::size_t i) { return sequentialColour(cloud.values[i]); });
   addSequentialBar(drawing, "planar confidence", 1.0);
   drawing.legend_title = "kept above " + shortNumber(r.report().planar_threshold);
+  return drawing;
+}
+
+Drawing drawClasses(const Reconstruction& r, View view) {
+  // In the order of `PointClass`.
+  constexpr std::array kNames = {"wall", "level", "ground", "sloped", "not planar", "apart"};
+  const StageCloud cloud = r.readLabels("02_classes.pcd", kNames.size() - 1, "class");
+  const auto classOf = [&](std::size_t i) { return static_cast<std::size_t>(cloud.values[i]); };
+  Drawing drawing;
+  drawing.title = "What the points are of";
+  std::array<std::size_t, kNames.size()> count{};
+  for (std::size_t i = 0; i < cloud.values.size(); ++i) ++count[classOf(i)];
+  addCloud(drawing, cloud, view,
+           [&](std::size_t i) { return distinctColour(classOf(i), kNames.size()); });
+  drawing.legend_title = "class: points";
+  for (std::size_t c = 0; c < kNames.size(); ++c) {
+    drawing.legend.push_back(
+        {distinctColour(c, kNames.size()), kNames[c] + (": " + std::to_string(count[c]))});
+  }
   return drawing;
 }
 

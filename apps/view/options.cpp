@@ -77,12 +77,9 @@ bool parseOptions(int argc, char** argv, Options& options) {
       "storey_view",
       {"DIRECTORY [--stage STAGE] [options]", "DIRECTORY --pictures [--size WxH]",
        "DIRECTORY --picture FILE.png --stage STAGE [options]"},
-      "Shows what storey_reconstruct left in a directory: in a window, where h lists the keys, or "
-      "in\n"
-      "PNG files. Stages but the model need what its --intermediate writes. Pictures need a "
-      "display,\n"
-      "of which nothing is seen; on a machine without one:\n"
-      "xvfb-run -a -s '-screen 0 1600x1200x24 -noreset' storey_view ...");
+      "Shows what storey_reconstruct left in a directory: in a window, where h lists the keys, or\n"
+      "in PNG files. Stages but the model need what its --intermediate writes. Pictures are drawn\n"
+      "out of sight; a machine without a display needs xvfb-run (package xvfb) for them.");
   line.argument("directory", options.directory, "the output directory of storey_reconstruct");
   line.flag("pictures", options.pictures,
             "write a picture of every stage into the directory; stages without files are left out");

@@ -106,8 +106,9 @@ bool Reconstruction::has(const std::string& name) const {
   return std::filesystem::exists(file(name), error);
 }
 
-StageCloud Reconstruction::readLabels(const std::string& name, std::size_t num_labels) const {
-  StageCloud cloud = readStageCloud(file(name), "label");
+StageCloud Reconstruction::readLabels(const std::string& name, std::size_t num_labels,
+                                      const std::string& field) const {
+  StageCloud cloud = readStageCloud(file(name), field);
   const double limit =
       static_cast<double>(num_labels > 0 ? num_labels : std::size_t{io::kMaxPoints});
   const auto bad = [&](double label) { return !(label >= 0.0 && label <= limit); };

@@ -38,7 +38,8 @@ class Reconstruction {
 
   /// A cloud with labels from 0 to `num_labels`; others are refused.
   /// \param num_labels 0: any number
-  StageCloud readLabels(const std::string& name, std::size_t num_labels) const;
+  StageCloud readLabels(const std::string& name, std::size_t num_labels,
+                        const std::string& field = "label") const;
   /// The faces of the model in the upright local frame.
   PolyhedralModel readModel() const;
 

@@ -50,8 +50,7 @@ void requireOpenGl(const DisplayConnection& display, const std::string& hint) {
 
 PictureWriter::PictureWriter(const PictureSize& size) : size_(size) {
   vtkObject::GlobalWarningDisplayOff();  // what matters is said by a Failure, in one line
-  requireOpenGl(display_,
-                "run it as: xvfb-run -a -s '-screen 0 1600x1200x24 -noreset' storey_view ...");
+  requireOpenGl(display_, "install xvfb, and unset DISPLAY: it is then drawn out of sight");
 }
 
 void PictureWriter::write(const std::string& path, const Drawing& drawing) const {

@@ -7,6 +7,7 @@ const std::vector<StageInfo>& allStages() {
   static const std::vector<StageInfo> stages = {
       {Stage::Upright, "upright", 1, {"01_upright.pcd"}},
       {Stage::Confidence, "confidence", 2, {"02_confidence.pcd"}},
+      {Stage::Classes, "classes", 2, {"02_classes.pcd"}},
       {Stage::Directions, "directions", 3, {"03_directions.pcd"}},
       {Stage::Slices, "slices", 4, {"04_slices.pcd"}},
       {Stage::Normals, "normals", 5, {"05_normals.pcd"}},

@@ -10,6 +10,7 @@ namespace storey::view {
 enum class Stage {
   Upright,
   Confidence,
+  Classes,
   Directions,
   Slices,
   Normals,

@@ -15,6 +15,8 @@ Drawing drawStage(const Reconstruction& r, Stage stage, View view, std::optional
   switch (stage) {
     case Stage::Confidence:
       return detail::drawConfidence(r, view);
+    case Stage::Classes:
+      return detail::drawClasses(r, view);
     case Stage::Directions:
     case Stage::Labels:
       return detail::drawDirections(r, stage, view);

@@ -35,6 +35,7 @@ namespace detail {
 
 // The parts of `makeDrawing`, by what they draw; the view and the name of the cloud are set there.
 Drawing drawConfidence(const Reconstruction& reconstruction, View view);
+Drawing drawClasses(const Reconstruction& reconstruction, View view);
 Drawing drawDirections(const Reconstruction& reconstruction, Stage stage, View view);
 Drawing drawSlices(const Reconstruction& reconstruction, View view);
 Drawing drawNormals(const Reconstruction& reconstruction, Stage stage, View view);

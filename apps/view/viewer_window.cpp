@@ -56,9 +56,7 @@ ViewerWindow::ViewerWindow(const Reconstruction& reconstruction, ViewerState sta
                            const PictureSize& size)
     : reconstruction_(reconstruction), state_(std::move(state)) {
   vtkObject::GlobalWarningDisplayOff();  // what matters is said by a Failure, in one line
-  requireOpenGl(display_,
-                "run it where there is a screen; files are drawn without one by: xvfb-run -a -s "
-                "'-screen 0 1600x1200x24 -noreset' storey_view DIRECTORY --pictures");
+  requireOpenGl(display_, "run it where there is a screen, or with --pictures");
   prepare(size);
   prepareSlider();
   draw();

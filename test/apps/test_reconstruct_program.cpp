@@ -39,9 +39,9 @@ class ReconstructProgram : public ::testing::Test {
   }
   static void TearDownTestSuite() { delete directory_; }
 
-  static Outcome run(const std::string& arguments) {
+  static Outcome run(const std::string& arguments, const std::string& prefix = "") {
     const TemporaryDirectory scratch;
-    const std::string command = std::string(STOREY_RECONSTRUCT) + " " +
+    const std::string command = prefix + std::string(STOREY_RECONSTRUCT) + " " +
                                 directory_->file("cloud.ply") + " -q --threads 1 -o " +
                                 scratch.file("out") + " " + arguments + " >" +
                                 scratch.file("stdout") + " 2>" + scratch.file("stderr");
@@ -94,6 +94,26 @@ TEST_F(ReconstructProgram, WritesWhatIsAskedForAndNoMore) {
   EXPECT_EQ(runWell("--formats cityjson,gltf,stl,vtk,svg,dxf --crs EPSG:7415").files,
             (Names{"model.city.json", "model.glb", "model.stl", "model.vtk", "floorplans.svg",
                    "floorplans.dxf", "report.json"}));
+}
+
+TEST_F(ReconstructProgram, PicturesOfAllStagesAreDrawn) {
+  if (std::system("command -v xvfb-run >/dev/null") != 0) GTEST_SKIP() << "no xvfb-run";
+  const Outcome outcome = runWell("--pictures --formats ply,geojson");
+  for (const char* const name :
+       {"01_upright", "02_confidence", "02_classes", "03_directions", "09_walls", "09_cells",
+        "09_floorplans", "10_types", "11_model", "11_support", "12_overlay"}) {
+    EXPECT_EQ(outcome.files.count(name + std::string(".png")), 1u) << name;
+  }
+  EXPECT_EQ(outcome.files.count("04_slices.png"), 0u);  // of the paper's chain only
+}
+
+TEST_F(ReconstructProgram, TheModelIsThereThoughItsPicturesAreNot) {
+  const Outcome outcome = run("--pictures --formats ply", "env -u DISPLAY PATH=/nonexistent ");
+  EXPECT_EQ(outcome.status, 75);
+  EXPECT_NE(outcome.message.find("no display"), std::string::npos) << outcome.message;
+  EXPECT_EQ(outcome.message.find('\n') + 1, outcome.message.size()) << outcome.message;
+  EXPECT_EQ(outcome.files.count("model.ply"), 1u);
+  EXPECT_TRUE(outcome.report["model"]["valid"].get<bool>());
 }
 
 TEST_F(ReconstructProgram, WrongFormatsGiveOneLineAndStatus2) {
