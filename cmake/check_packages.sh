@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs the packages of a folder on a minimal Debian of its own, and uses them there: a model from
-# the command line, then a program built with CMake and one with pkg-config. Needs root and network.
+# the command line, then the examples and the project of test/consumer built with CMake, and an
+# example with pkg-config. Needs root and network.
 # cmake/check_packages.sh FOLDER
 set -euo pipefail
 packages=$(realpath "$1")
@@ -20,6 +21,7 @@ cp /etc/resolv.conf "$root/etc/"
 mkdir "$root/packages"
 cp "$packages"/*.deb "$root/packages/"
 cp -r "$source/apps/examples" "$root/examples"
+cp -r "$source/test/consumer" "$root/consumer"
 
 chroot "$root" /bin/bash -euc '
   export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8
@@ -35,6 +37,10 @@ chroot "$root" /bin/bash -euc '
   cmake -S /examples -B /tmp/build >/dev/null
   cmake --build /tmp/build >/dev/null
   /tmp/build/five_classes /tmp/cloud.ply /tmp/model.vtk
+  cmake -S /consumer -B /tmp/consumer >/dev/null
+  cmake --build /tmp/consumer >/dev/null
+  /tmp/consumer/readme_example
+  /tmp/consumer/foreign_point
   g++ /examples/floorplans.cpp -o /tmp/floorplans \
     $(pkg-config --cflags --libs storey_surface pcl_io) -lboost_filesystem  # which pcl_io.pc forgets
   /tmp/floorplans /tmp/cloud.ply

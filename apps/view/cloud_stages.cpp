@@ -87,14 +87,17 @@ Drawing drawConfidence(const Reconstruction& r, View view) {
 Drawing drawClasses(const Reconstruction& r, View view) {
   // In the order of `PointClass`.
   constexpr std::array kNames = {"wall", "level", "ground", "sloped", "not planar", "apart"};
-  const StageCloud cloud = r.readLabels("02_classes.pcd", kNames.size() - 1, "class");
-  const auto classOf = [&](std::size_t i) { return static_cast<std::size_t>(cloud.values[i]); };
+  const StageCloud cloud = r.readLabels("02_classes.pcd", kNames.size(), "class");
   Drawing drawing;
   drawing.title = "What the points are of";
   std::array<std::size_t, kNames.size()> count{};
-  for (std::size_t i = 0; i < cloud.values.size(); ++i) ++count[classOf(i)];
-  addCloud(drawing, cloud, view,
-           [&](std::size_t i) { return distinctColour(classOf(i), kNames.size()); });
+  addCloud(drawing, cloud, view, [&](std::size_t i) {
+    const std::optional<std::size_t> c = labelOf(cloud, i);
+    return c ? distinctColour(*c, kNames.size()) : kNoLabel;
+  });
+  for (std::size_t i = 0; i < cloud.values.size(); ++i) {
+    if (const auto c = labelOf(cloud, i)) ++count[*c];
+  }
   drawing.legend_title = "class: points";
   for (std::size_t c = 0; c < kNames.size(); ++c) {
     drawing.legend.push_back(
