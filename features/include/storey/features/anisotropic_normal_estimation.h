@@ -16,16 +16,20 @@ constexpr double kDefaultNormalAlpha = 0.1;    // [Sui et al. 2016, 3.2.1]
 
 /// Smooths given normals and keeps the creases [Sui et al. 2016, (1)-(3)]:
 ///
-///     E_n = sum_i [ sum_{j in N_i} |n_i - n_j|^2 phi(|x_i - x_j|) psi(n_i, n_j) + alpha |n_i -
-///     n_i0|^2 ] phi(d) = exp(-(d / sigma_p)^2),   psi(a, b) = exp(-((1 - a.b) / (1 - cos
-///     sigma_n))^2) n_i <- normalise(sum_j phi psi n_j + alpha n_i0)
+///     E_n = sum_i [ sum_{j in N_i} |n_i - n_j|^2 phi(|x_i - x_j|) psi(n_i, n_j)
+///                   + alpha |n_i - n_i0|^2 ]
+///     phi(d) = exp(-(d / sigma_p)^2)
+///     psi(a, b) = exp(-((1 - a.b) / (1 - cos sigma_n))^2)
+///     n_i <- normalise(sum_j phi psi n_j + alpha n_i0)
 ///
 /// all points at once, from the normals of the round before. The point itself is not in N_i.
 /// \note An update never raises (1) with psi held at the normals before it; no damping is needed.
 /// With psi as a function of the normals, each pair's term has its maximum at 1 - a.b =
 /// (1 - cos sigma_n) / sqrt 2 (17 degrees), and (1) may rise a little while pairs further apart
-/// than that, at corners, are drawn together. \note Deviation: sigma_p is by default derived from
-/// the cloud instead of 0.1 of its units [doc/method.md, deviation 8].
+/// than that, at corners, are drawn together.
+///
+/// \note Deviation: sigma_p is by default derived from the cloud instead of 0.1 of its units
+/// [doc/method.md, deviation 8].
 ///
 /// The prior normals come through `setInputNormals`, parallel to the surface (default: the input);
 /// they need not be unit. `setKSearch` (counting the point itself; the paper has 30) or
@@ -39,6 +43,11 @@ constexpr double kDefaultNormalAlpha = 0.1;    // [Sui et al. 2016, 3.2.1]
 /// The output must be another cloud than input, surface and normals. The result does not depend on
 /// the number of threads.
 /// \par Complexity O(n log n + iterations * n * k) time, 8 (k + 6) bytes a point.
+/// \par In pcl_viewer
+/// `pcl_viewer 05_normals.pcd -normals 10 -normals_scale 0.5`: sticks of a wall are parallel up to
+/// the corner, and turn there from one point to the next.
+///
+/// \image html tutorial_normals.png
 template <typename PointInT, typename PointNT = PointInT, typename PointOutT = PointNT>
 class AnisotropicNormalEstimation : public pcl::FeatureFromNormals<PointInT, PointNT, PointOutT> {
  public:

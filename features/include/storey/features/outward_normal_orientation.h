@@ -25,6 +25,9 @@ namespace storey {
 /// Only signs change. Only the indexed points are used and turned; those with a non-finite
 /// position or normal stay as they are. The result does not depend on the number of threads.
 /// \par Complexity O(n) plus about 1000 rays a patch, 72 bytes a point and at most 64 MB of voxels.
+/// \par In pcl_viewer
+/// `pcl_viewer 01_upright.pcd -normals 10 -normals_scale 0.5`: sticks point away from the building,
+/// in a courtyard into it.
 template <typename PointT>
 class OutwardNormalOrientation : public pcl::PCLBase<PointT> {
  public:

@@ -39,6 +39,9 @@ struct VerticalQuality {
 /// Needs finite normals of any sign; other points are left out. Only the indexed points are used.
 /// The result does not depend on the number of threads.
 /// \par Complexity O(n log n) time (sorting into columns), about 64 bytes a point.
+/// \par In pcl_viewer
+/// `ALT+2` shows the normals as points of a sphere: after `storey_vertical` those of walls lie on
+/// its equator.
 template <typename PointT, typename NormalT = PointT>
 class VerticalDirectionEstimation : public pcl::PCLBase<PointT> {
  public:

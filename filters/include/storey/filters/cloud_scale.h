@@ -42,7 +42,9 @@ CloudScale estimateCloudScale(const std::vector<Eigen::Vector3f>& positions, std
 /// NaN and infinite points and coordinates beyond 1e18 are ignored; duplicates count once except in
 /// the density. With no usable point everything is 0, with fewer than 5 distinct positions noise
 /// and density are. \param seed of the draw; the same seed and points, in any order, give the same
-/// result \par Complexity O(n log n) time, about 40 bytes a point.
+/// result
+///
+/// \par Complexity O(n log n) time, about 40 bytes a point.
 template <typename PointT>
 CloudScale estimateCloudScale(const pcl::PointCloud<PointT>& cloud,
                               std::uint32_t seed = kDefaultScaleSeed) {

@@ -26,6 +26,11 @@ namespace storey {
 ///
 /// \tparam PointT needs x, y, z and normal_x, normal_y, normal_z (of any length > 0)
 /// \par Complexity O(n), and O(n log n) where the thickness is derived. Deterministic.
+/// \par In pcl_viewer
+/// `storey_slices` writes the slice as `label`: bands of one thickness, each in a colour; roofs and
+/// ground have none.
+///
+/// \image html tutorial_slices.png
 template <typename PointT>
 class GravitySlicing : public pcl::PCLBase<PointT> {
  public:

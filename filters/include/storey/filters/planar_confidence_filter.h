@@ -34,6 +34,12 @@ namespace storey {
 /// \tparam PointT needs x, y, z
 /// \par Complexity O(n log n) time, about 80 bytes a point. The result has the same bytes for any
 /// number of threads; the order of the indices is kept.
+/// \par In pcl_viewer
+/// `storey_planar_confidence IN OUT.pcd` keeps all points, with k as `intensity`: press a number
+/// key until it is shown, `u` for the scale. Walls are even; edges of the building, trees and
+/// railings stand out as low values.
+///
+/// \image html tutorial_confidence.png
 template <typename PointT>
 class PlanarConfidenceFilter : public pcl::FilterIndices<PointT> {
  public:

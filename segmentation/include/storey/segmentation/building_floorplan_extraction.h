@@ -31,8 +31,15 @@ namespace storey {
 ///
 /// Needs an upright cloud (+z is up) with outward normals; only the indexed points are used, those
 /// with a non-finite position or normal are left out. Horizontal points (roofs, ground) count as
-/// evidence of what is below and above them. \par Complexity O(n lines + layers^2 cuts).
+/// evidence of what is below and above them.
+///
+/// \par Complexity O(n lines + layers^2 cuts).
 /// Deterministic.
+/// \par In pcl_viewer
+/// `09_floorplans.vtk` of `storey_reconstruct --intermediate` has the outline of each block at its
+/// mid-height, as lines; given `01_upright.pcd` as well they run along the walls' points.
+///
+/// \image html tutorial_floorplans.png
 template <typename PointT>
 class BuildingFloorplanExtraction : public pcl::PCLBase<PointT> {
  public:

@@ -40,6 +40,11 @@ namespace storey {
 /// \tparam NormalT needs normal_x, normal_y, normal_z (of any length > 0)
 /// \par Complexity O(n) and O(min(n, max samples)) searches of neighbours. Deterministic; the
 /// order of the input does not matter.
+/// \par In pcl_viewer
+/// `storey_dominant_directions` writes the direction as `label`, 0 = none: a wall is of one colour,
+/// its opposite of another.
+///
+/// \image html tutorial_directions.png
 template <typename PointT, typename NormalT = PointT>
 class DominantDirectionClustering : public pcl::PCLBase<PointT> {
  public:

@@ -35,6 +35,9 @@ namespace storey {
 /// \tparam NormalT needs normal_x, normal_y, normal_z (of any length > 0)
 /// \par Complexity O(n k) and n searches of neighbours. One thread; objects in different threads
 /// do not disturb each other, so that slices can be labelled in parallel. Deterministic.
+/// \par In pcl_viewer
+/// `06_labels.pcd` is coloured by `label`: like the dominant directions, but without single points
+/// of another colour within a wall.
 template <typename PointT, typename NormalT = PointT>
 class DominantDirectionLabeling : public pcl::PCLBase<PointT> {
  public:

@@ -18,6 +18,17 @@ namespace storey {
 /// number of threads.
 ///
 /// Needs an upright cloud (+z is up) with outward normals; only the indexed points are used.
+/// A slice without points gives a layer without outline. Without an input, with an index outside
+/// the cloud or a bad parameter there are no layers, after a PCL_ERROR.
+///
+/// \tparam PointT needs x, y, z and normal_x, normal_y, normal_z
+///
+/// \par Complexity O(n (k + log n)) and O(s^3) a slice for s segments; a copy of the points of the
+/// slices that are worked on.
+///
+/// \par In pcl_viewer
+/// As `SliceFloorplanExtraction`; `storey_reconstruct --method paper --intermediate` leaves the
+/// cloud of each step.
 template <typename PointT>
 class LayerwiseFloorplanExtraction : public pcl::PCLBase<PointT> {
  public:

@@ -33,6 +33,12 @@ namespace storey {
 /// grows the regions itself, and without `setDirections` it clusters the directions as well.
 ///
 /// \par Complexity O(points + s^3) for s segments. Deterministic.
+/// \par In pcl_viewer
+/// `09_floorplans.vtk` of `storey_reconstruct --method paper --intermediate` has the outlines of
+/// all slices as lines: a stack of rings, of which single ones may be wrong where walls are
+/// missing.
+///
+/// \image html tutorial_floorplans.png
 template <typename PointT, typename NormalT = PointT>
 class SliceFloorplanExtraction : public pcl::PCLBase<PointT> {
  public:

@@ -24,6 +24,10 @@ namespace storey {
 /// floorplans of the same lines.
 /// \tparam PointT needs x, y, z, normal_x, normal_y, normal_z
 /// \par Complexity O(n walls). Deterministic.
+/// \par In pcl_viewer
+/// `storey_walls IN OUT.pcd` writes the wall as `label`, 0 = none: each plane has a colour of its
+/// own, also where windows interrupt it; `storey_view` draws the walls as `09_walls.geojson` has
+/// them.
 template <typename PointT>
 class WallExtraction : public pcl::PCLBase<PointT> {
  public:

@@ -31,6 +31,15 @@ namespace storey {
 /// the distance of floorplans knows their position (`FloorplanGrammar`), shapes and heights are
 /// fitted to the points again (`fitWalls`, `fitHeights`), the mesh is conforming
 /// (`extrudeFloorplans`).
+/// \par Complexity O(n) for the fits, and what the source of the floorplans takes; (11)-(15) by
+/// branch and bound over the sets of types, with a work limit after which bound and gap are
+/// reported.
+///
+/// \par In pcl_viewer
+/// `11_model.vtk`: `w` and `s` change between edges and facets, `-opaque 0.4` shows the cloud
+/// within.
+///
+/// \image html tutorial_model.png
 template <typename PointT>
 class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
  public:
