@@ -35,14 +35,33 @@ double noiseOfWalls(const Cloud& cloud, const pcl::Indices& walls, const CloudSc
   return storey::detail::estimateWallNoise(positions, normals, scale.noise, scale.extent);
 }
 
+/// \return the share of the normals that were turned
+double turnToSensor(Cloud& cloud, const Eigen::Vector3f& sensor) {
+  std::size_t turned = 0;
+  for (Point& p : cloud) {
+    if (p.getNormalVector3fMap().dot(sensor - p.getVector3fMap()) >= 0.0f) continue;
+    p.getNormalVector3fMap() *= -1.0f;
+    ++turned;
+  }
+  return static_cast<double>(turned) / static_cast<double>(std::max<std::size_t>(cloud.size(), 1));
+}
+
 }  // namespace
 
 std::string estimateMissingNormals(StageCloud& cloud, const AttitudeOptions& options,
                                    unsigned int threads, Attitude& found) {
-  if (cloud.has_normals && !options.estimate_normals) return "given";
-  found.normals_k = estimateNormals(*cloud.points, 0, threads);
-  cloud.has_normals = true;
-  return format("estimated from %d neighbours", found.normals_k);
+  std::string line = "given";
+  if (!cloud.has_normals || options.estimate_normals) {
+    found.normals_k = estimateNormals(*cloud.points, 0, threads);
+    cloud.has_normals = true;
+    line = format("estimated from %d neighbours", found.normals_k);
+  }
+  if (options.sensor.allFinite()) {
+    const Eigen::Vector3d sensor = cloud.state.frame_to_input.inverse() * options.sensor;
+    const double turned = turnToSensor(*cloud.points, sensor.cast<float>());
+    line += format(", %.0f %% of them turned to the sensor", 100.0 * turned);
+  }
+  return line;
 }
 
 std::string setUpright(StageCloud& cloud, const AttitudeOptions& options, unsigned int threads,
@@ -77,7 +96,7 @@ std::string setUpright(StageCloud& cloud, const AttitudeOptions& options, unsign
 std::string orientOutwards(StageCloud& cloud, const AttitudeOptions& options, unsigned int threads,
                            Attitude& found) {
   bool& inside = cloud.state.inside;
-  if (found.normals_k > 0) {
+  if (found.normals_k > 0 && !options.sensor.allFinite()) {
     OutwardNormalOrientation<Point> orientation;
     orientation.setInputCloud(cloud.points);
     orientation.setNumberOfThreads(threads);

@@ -4,6 +4,8 @@
 #include <storey/features/vertical_direction_estimation.h>
 #include <storey/filters/cloud_scale.h>
 
+#include <limits>
+
 #include "io/cloud_reader.h"
 #include "stages/stage_cloud.h"
 
@@ -17,6 +19,8 @@ struct AttitudeOptions {
   Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< zero: found from the walls
   SpaceSide side = SpaceSide::Auto;
   bool estimate_normals = false;  ///< even if the file has some
+  /// Where all points were seen from, in the input's coordinates; NaN: not known.
+  Eigen::Vector3d sensor = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   double noise = 0.0;
   std::string crs;  ///< of the coordinates in the file, any text
 };
@@ -34,6 +38,7 @@ struct Attitude {
 // The parts of the first stage, in their order: from a loaded cloud to one that all others may rely
 // on. Each changes the cloud and returns a line that says what it found. \throws io::Failure
 // (BadInput) with the reason where there is nothing to go on with.
+/// With a sensor all normals are turned to it, given ones as well.
 std::string estimateMissingNormals(StageCloud& cloud, const AttitudeOptions& options,
                                    unsigned int threads, Attitude& found);
 std::string setUpright(StageCloud& cloud, const AttitudeOptions& options, unsigned int threads,

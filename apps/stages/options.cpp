@@ -15,6 +15,9 @@ void declareAttitude(cli::CommandLine& line, AttitudeOptions& o) {
       "room or yard seen from inside, auto = told from the normals");
   line.flag("estimate-normals", o.estimate_normals,
             "estimate and orient the normals even if the file has some");
+  line.vector("sensor", o.sensor,
+              "position that all points were seen from, in the cloud's coordinates: normals are "
+              "turned to it [not known]");
   line.number("noise", o.noise, cli::kNonNegative,
               "standard deviation of the points about their walls, length [0 = measured]");
   line.text("crs", o.crs,
