@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <type_traits>
 
 #include "bench/isolation.h"
 #include "bench/markdown.h"
+#include "bench/real_clouds.h"
 #include "bench/suites.h"
-#include "io/failure.h"
 #include "io/model_io.h"
 #include "reconstruct/agreement.h"
 #include "reconstruct/pipeline.h"
@@ -47,35 +44,9 @@ struct Agreement {
   double seconds = 0.0;
 };
 
-/// Lines "NAME.ply options of storey_reconstruct"; # starts a comment.
-std::map<std::string, std::string> readCloudOptions(const std::string& path) {
-  std::map<std::string, std::string> options;
-  if (path.empty()) return options;
-  std::ifstream file(path);
-  if (!file) throw io::Failure(io::MissingInput, path, "cannot be read", "");
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream stream(line.substr(0, line.find('#')));
-    std::string name;
-    if (stream >> name) std::getline(stream, options[name]);
-  }
-  return options;
-}
-
-std::vector<std::string> cloudsIn(const std::string& folder) {
-  std::vector<std::string> clouds;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".ply") clouds.push_back(entry.path().string());
-  }
-  if (error) throw io::Failure(io::MissingInput, folder, error.message(), "");
-  std::sort(clouds.begin(), clouds.end());
-  return clouds;
-}
-
 reconstruct::Options optionsOf(const std::string& cloud, const std::string& text) {
   std::vector<std::string> words = {"storey_reconstruct", cloud, "-o", "unused", "--threads", "1"};
-  std::istringstream stream(text);
-  for (std::string word; stream >> word;) words.push_back(word);
+  for (const std::string& word : wordsOf(text)) words.push_back(word);
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   reconstruct::Options options;

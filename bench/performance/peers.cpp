@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/peers.h"
+#include "bench/performance/peers.h"
 
 #include <pcl/common/io.h>
 #include <pcl/features/normal_3d_omp.h>
@@ -92,14 +92,25 @@ void pclPoisson(const Cloud::ConstPtr& cloud) {
 }  // namespace
 
 std::vector<Peer> peers() {
-  constexpr std::size_t kAny = 100000000;
-  constexpr std::size_t kMillion = 1000000;
-  return {{"storey::PlanarConfidenceFilter, K = 30", kAny, planarConfidence},
-          {"pcl::NormalEstimationOMP, K = 30", 4 * kMillion, pclNormals},
-          {"storey::estimateNormals, K = 30", kAny, normals},
-          {"pcl::RegionGrowing, K = 30", kMillion, pclRegionGrowing},
-          {"pcl::ConcaveHull of 40 slices", kMillion, pclConcaveHulls},
-          {"pcl::Poisson, depth 8", kMillion, pclPoisson}};
+  return {
+      {"storey::PlanarConfidenceFilter, K = 30", planarConfidence},
+      {"pcl::NormalEstimationOMP, K = 30", pclNormals},
+      {"storey::estimateNormals, K = 30", normals},
+      {"pcl::RegionGrowing, K = 30", pclRegionGrowing},
+      {"pcl::ConcaveHull of 40 slices", pclConcaveHulls},
+      {"pcl::Poisson, depth 8", pclPoisson},
+#ifdef STOREY_BENCH_CGAL
+      {"CGAL::Polygonal_surface_reconstruction, GLPK", cgalPolygonalSurface, true, true},
+#endif
+  };
+}
+
+std::string missingPeers() {
+#ifdef STOREY_BENCH_CGAL
+  return "";
+#else
+  return "CGAL 5.5 with GLPK is not installed: left out.";
+#endif
 }
 
 }  // namespace storey::bench

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/performance/threads.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "bench/markdown.h"
+#include "bench/performance/program.h"
+#include "io/failure.h"
+
+namespace storey::bench {
+namespace {
+
+constexpr const char* kText = R"(## One thread and two
+
+Wall seconds of storey_reconstruct, up to a million points the best of three runs. With files: from the start of the program to its end, the cloud read and the model written. Without: the stages alone. The results
+are the same bytes.
+
+)";
+
+std::string programName(const std::string& method, int threads) {
+  return "program, " + method + ", " + std::to_string(threads) + " thread" +
+         (threads > 1 ? "s" : "");
+}
+
+std::string stagesName(const std::string& method, int threads) {
+  return "stages of " + programName(method, threads);
+}
+
+/// Wall seconds of all stages but the reading, by the program's own report.
+double stageSeconds(const std::string& folder) {
+  std::ifstream file(folder + "/report.json");
+  const nlohmann::json seconds = nlohmann::json::parse(file).at("seconds");
+  return seconds.at("total").get<double>() - seconds.at("read").get<double>();
+}
+
+}  // namespace
+
+void measurePrograms(std::size_t size, const std::string& cloud, const std::string& scratch,
+                     const std::string& method, int runs, Results& results) {
+  for (const int threads : {1, 2}) {
+    Measured whole{programName(method, threads), 1e9, 1e9, 0.0};
+    Measured stages{stagesName(method, threads), 1e9, 0.0, 0.0};
+    for (int i = 0; i < runs; ++i) {
+      const ProgramRun run =
+          runProgram("storey_reconstruct", {cloud, "-o", scratch, "--quiet", "--method", method,
+                                            "--threads", std::to_string(threads)});
+      if (run.status != 0) throw io::Failure(io::Internal, cloud, "storey_reconstruct failed", "");
+      whole.wall = std::min(whole.wall, run.wall);
+      whole.cpu = std::min(whole.cpu, run.cpu);
+      whole.bytes = std::max(whole.bytes, run.peak_bytes);
+      stages.wall = std::min(stages.wall, stageSeconds(scratch));
+    }
+    results.add(size, "", {whole});
+    results.note(size, stages);
+  }
+}
+
+void printSpeedUps(const Results& results) {
+  std::printf("%s", kText);
+  Table table({"method", "points", "with files: 1 thread", "2 threads", "speed-up",
+               "without: 1 thread", "2 threads", "speed-up"});
+  for (const std::string method : {"building", "paper"}) {
+    for (const std::size_t size : results.sizes()) {
+      const Measured* one = results.find(programName(method, 1), size);
+      if (one == nullptr) continue;
+      const double whole = results.find(programName(method, 2), size)->wall;
+      const double before = results.find(stagesName(method, 1), size)->wall;
+      const double after = results.find(stagesName(method, 2), size)->wall;
+      table.add({method, std::to_string(size), fixed(one->wall, 2), fixed(whole, 2),
+                 fixed(one->wall / whole, 2), fixed(before, 2), fixed(after, 2),
+                 fixed(before / after, 2)});
+    }
+  }
+  table.print();
+}
+
+}  // namespace storey::bench
