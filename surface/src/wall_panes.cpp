@@ -243,6 +243,12 @@ void ResidualHistogram::add(double residual) {
   total_ += 1.0;
 }
 
+ResidualHistogram& ResidualHistogram::operator+=(const ResidualHistogram& other) {
+  for (std::size_t b = 0; b < kBins; ++b) counts_[b] += other.counts_[b];
+  total_ += other.total_;
+  return *this;
+}
+
 WallPanes::Expected WallPanes::expected(double residual) const {
   const Parts parts = partsAt(*this, residual);
   const double own = parts.wall + parts.pane;

@@ -49,6 +49,7 @@ bool BuildingFloorplanExtraction<PointT>::extract(std::vector<FloorplanLayer>& b
   options.block_cost = block_cost_;
   options.limits = limits_;
   options.steps = steps_;
+  options.threads = threads_;
   options.min_area = std::pow(detail::kMinComponentSideInNoise * input.scale.noise, 2);
   result_ = detail::extractBuildingFloorplans(input.walls, input.levels, input.scale, options);
   blocks = result_.layers;
