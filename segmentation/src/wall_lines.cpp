@@ -303,10 +303,10 @@ bool isLeftover(const std::vector<int>& support, const std::vector<WallLine>& st
 
 }  // namespace
 
-std::vector<WallPoint> drawEvenly(const std::vector<WallPoint>& points) {
+pcl::Indices drawEvenly(const pcl::Indices& points) {
   const std::size_t step = points.size() / kMaxSamples + 1;
   if (step == 1) return points;
-  std::vector<WallPoint> sample;
+  pcl::Indices sample;
   // Golden-ratio stepping inside each stride, so that the order of a scanner leaves no pattern.
   double phase = 0.5;
   for (std::size_t i = 0; i < points.size(); i += step) {
