@@ -181,7 +181,8 @@ BuildingFloorplans extractBuildingFloorplans(const WallInput& input,
   WallScale sample_scale = input.scale;
   sample_scale.density *=
       static_cast<double>(input.sample.size()) / static_cast<double>(input.walls.size());
-  result.walls = findWallLines(input.sample, sample_scale, {options.min_wall_area, options.steps});
+  result.walls = findWallLines(input.sample, sample_scale,
+                               {options.min_wall_area, options.steps, options.threads});
   if (result.walls.size() < 2) return result;
   if (options.steps.hypotheses) {
     const double corner_gap = std::sqrt(kPlanarNeighbors / (M_PI * input.scale.density));

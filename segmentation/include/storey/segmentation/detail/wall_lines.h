@@ -12,6 +12,7 @@ namespace storey::detail {
 struct WallLineOptions {
   double min_area = 0.0;  ///< least supported area of a wall
   MethodSteps steps = {};
+  unsigned int threads = 0;  ///< 0: all cores; the result is the same for any number
 };
 
 /// At most 250,000 of the points, evenly drawn: enough to find lines with.

@@ -46,7 +46,7 @@ void WallExtraction<PointT>::extract(std::vector<pcl::PointIndices>& walls) {
     detail::WallScale scale = input.scale;
     scale.density *=
         static_cast<double>(input.sample.size()) / static_cast<double>(input.walls.size());
-    lines = detail::findWallLines(input.sample, scale, {input.min_wall_area});
+    lines = detail::findWallLines(input.sample, scale, {input.min_wall_area, {}, threads_});
   }
   std::vector<pcl::PointIndices> found(lines.size());
   const std::vector<int> wall_of = detail::assignToWalls(input.walls, lines, input.scale);
