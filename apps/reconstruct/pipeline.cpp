@@ -40,8 +40,8 @@ class Pipeline {
     observers_.cloud("03_directions", cloud);
     if (options_.method == Method::Building) {
       stage("floorplans", [&] {
-        return extractBlocks(cloud, options_.block_cost, options_.simplicity, result_.blocks,
-                             result_.building, options_.steps);
+        return extractBlocks(cloud, options_.block_cost, options_.simplicity, options_.threads,
+                             result_.blocks, result_.building, options_.steps);
       });
     } else {
       extractSlices();
@@ -49,8 +49,8 @@ class Pipeline {
     stage("model", [&] {
       const bool blocks = options_.method == Method::Building;
       return buildModel(cloud, blocks ? result_.blocks : result_.slices.layers, options_.method,
-                        options_.simplicity.max_types, options_.model, result_.model,
-                        options_.steps);
+                        options_.simplicity.max_types, options_.model, options_.threads,
+                        result_.model, options_.steps);
     });
     result_.local_to_input = modelToInput(cloud, result_.model);
     return std::move(result_);

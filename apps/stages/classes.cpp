@@ -13,24 +13,27 @@ std::string classify(StageCloud& cloud) {
   requireNormals(cloud);
   ensureScale(cloud);
   const storey::detail::WallScale scale{cloud.state.noise, cloud.state.density};
-  const pcl::Indices planar = planarPoints(cloud);
-  std::vector<char> is_planar(cloud.points->size(), 0);
-  for (const pcl::index_t index : planar) {
-    const auto i = static_cast<std::size_t>(index);
-    is_planar[i] = pcl::isNormalFinite((*cloud.points)[i]) ? 1 : 0;  // none where none was found
-  }
   std::vector<storey::detail::OrientedPoint> points;
+  points.reserve(cloud.points->size());
   for (const Point& p : *cloud.points) {
-    points.push_back({p.getVector3fMap().cast<double>(), p.getNormalVector3fMap().cast<double>()});
+    points.push_back({p.getVector3fMap(), p.getNormalVector3fMap()});
   }
-  const storey::detail::WallInput input =
-      storey::detail::gatherWallInput(*cloud.points, planar, {scale.noise, scale.density, 0.0});
-  const auto classes = classifyPoints(points, is_planar, scale, input.min_wall_area);
+  std::vector<char> is_planar(points.size(), 0);
+  pcl::Indices of_walls;
+  for (const pcl::index_t i : planarPoints(cloud)) {
+    const Point& p = (*cloud.points)[static_cast<std::size_t>(i)];
+    is_planar[static_cast<std::size_t>(i)] = pcl::isNormalFinite(p) ? 1 : 0;  // not found: none
+    if (storey::detail::attitudeOf(p) == storey::detail::Attitude::Upright) of_walls.push_back(i);
+  }
+  const double least_wall =
+      storey::detail::leastWallArea(*cloud.points, of_walls, cloud.state.noise);
+  const auto classes = classifyPoints(points, is_planar, scale, least_wall);
   std::size_t count[storey::detail::kNumPointClasses] = {};
-  cloud.groups(Class).clear();
-  for (const storey::detail::PointClass c : classes) {
-    cloud.groups(Class).push_back(static_cast<int>(c));
-    ++count[static_cast<std::size_t>(c)];
+  std::vector<int>& groups = cloud.groups(Class);
+  groups.resize(classes.size());
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    groups[i] = static_cast<int>(classes[i]);
+    ++count[static_cast<std::size_t>(classes[i])];
   }
   return format("%zu points of walls, %zu level, %zu ground, %zu sloped, %zu apart", count[0],
                 count[1], count[2], count[3], count[5]);

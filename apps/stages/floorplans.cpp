@@ -8,7 +8,7 @@
 namespace storey::stages {
 
 std::string extractBlocks(StageCloud& cloud, double block_cost, const SimplicityOptions& simplicity,
-                          std::vector<FloorplanLayer>& blocks,
+                          unsigned int threads, std::vector<FloorplanLayer>& blocks,
                           storey::detail::BuildingFloorplans& found,
                           const storey::detail::MethodSteps& steps) {
   ensureScale(cloud);
@@ -22,6 +22,7 @@ std::string extractBlocks(StageCloud& cloud, double block_cost, const Simplicity
   extraction.setMaxTypes(static_cast<std::size_t>(simplicity.max_types));
   extraction.setWholeTradeOff(simplicity.trade_off);
   extraction.setSteps(steps);
+  extraction.setNumberOfThreads(threads);
   if (!extraction.extract(blocks)) {
     refuse(cloud, "the walls enclose no building",
            "is half of it missing, or the vertical wrong (--up)?");

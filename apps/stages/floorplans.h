@@ -24,7 +24,7 @@ struct SimplicityOptions {
 /// \param steps for experiments: those of the method that are left out
 /// \return a line that says what was found \throws io::Failure (BadInput) if there is no building
 std::string extractBlocks(StageCloud& cloud, double block_cost, const SimplicityOptions& simplicity,
-                          std::vector<FloorplanLayer>& blocks,
+                          unsigned int threads, std::vector<FloorplanLayer>& blocks,
                           storey::detail::BuildingFloorplans& found,
                           const storey::detail::MethodSteps& steps = {});
 

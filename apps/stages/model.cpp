@@ -8,8 +8,8 @@
 namespace storey::stages {
 
 std::string buildModel(StageCloud& cloud, const std::vector<FloorplanLayer>& layers, Method method,
-                       int max_types, const ModelOptions& options, LayerwiseModel& model,
-                       const storey::detail::MethodSteps& steps) {
+                       int max_types, const ModelOptions& options, unsigned int threads,
+                       LayerwiseModel& model, const storey::detail::MethodSteps& steps) {
   ensureScale(cloud);
   LayerwiseMRFReconstruction<Point> reconstruction;
   reconstruction.setInputCloud(cloud.points);
@@ -26,6 +26,7 @@ std::string buildModel(StageCloud& cloud, const std::vector<FloorplanLayer>& lay
   reconstruction.setExactMinimization(!options.expansion);
   reconstruction.setGrid(options.grid);
   reconstruction.setSteps(steps);
+  reconstruction.setNumberOfThreads(threads);
   pcl::PolygonMesh mesh;
   reconstruction.reconstruct(mesh);
   model = reconstruction.getResult();

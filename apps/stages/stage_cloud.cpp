@@ -10,6 +10,7 @@ namespace storey::stages {
 
 pcl::Indices planarPoints(const StageCloud& cloud) {
   pcl::Indices planar;
+  planar.reserve(cloud.points->size());
   for (std::size_t i = 0; i < cloud.points->size(); ++i) {
     if (cloud.confidences.empty() || cloud.confidences[i] >= cloud.state.planar_threshold) {
       planar.push_back(static_cast<pcl::index_t>(i));

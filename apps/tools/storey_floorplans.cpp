@@ -53,7 +53,8 @@ int run(int argc, char** argv) {
   std::string found;
   if (r.method == stages::Method::Building) {
     storey::detail::BuildingFloorplans building;
-    found = extractBlocks(cloud, r.block_cost, r.simplicity, floorplans.layers, building);
+    found =
+        extractBlocks(cloud, r.block_cost, r.simplicity, r.threads, floorplans.layers, building);
   } else {
     stages::SliceFloorplans slices;
     found = outlineSlices(cloud, r.slices.linking, r.threads, slices);

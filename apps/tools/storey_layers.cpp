@@ -18,6 +18,7 @@ struct Request {
   std::vector<std::string> outputs;
   int max_types = 0;
   stages::ModelOptions model;
+  unsigned int threads = 0;
   bool quiet = false;
 };
 
@@ -37,6 +38,7 @@ bool parse(int argc, char** argv, Request& r) {
   stages::SimplicityOptions simplicity;
   stages::declareMaxTypes(line, simplicity);
   stages::declareModel(line, r.model);
+  line.threads(r.threads);
   stages::declareQuiet(line, r.quiet);
   if (!line.parse(argc, argv)) return false;
   if (r.outputs.empty()) line.fail("a cloud, floorplans and a model are needed");
@@ -71,8 +73,8 @@ int run(int argc, char** argv) {
   const stages::StageFloorplans floorplans = stages::readFloorplans(r.floorplans);
   completeState(floorplans, cloud);
   LayerwiseModel model;
-  const std::string found =
-      buildModel(cloud, floorplans.layers, floorplans.method, r.max_types, r.model, model);
+  const std::string found = buildModel(cloud, floorplans.layers, floorplans.method, r.max_types,
+                                       r.model, r.threads, model);
   const exports::Exported exported{model.model, modelToInput(cloud, model), cloud.state.crs};
   for (const std::string& output : r.outputs) {
     exports::formatOfFile(output)->write(output, exported);

@@ -88,15 +88,15 @@ double explainedArea(const LineArrangement& plan, const std::vector<CellBlock>& 
 // The walls of a building, cut into cells and labelled.
 class Labeling {
  public:
-  Labeling(const std::vector<WallPoint>& points, const std::vector<LevelPoint>& level_points,
-           const WallScale& scale, const BuildingFloorplanOptions& options,
+  Labeling(const WallInput& input, const BuildingFloorplanOptions& options,
            BuildingFloorplans& result)
-      : points_(points),
-        level_points_(level_points),
-        scale_(scale),
+      : points_(input.walls),
+        level_points_(input.levels),
+        scale_(input.scale),
         steps_(options.steps),
+        threads_(options.threads),
         face_cost_(kFaceCost * options.min_wall_area),
-        box_(boxAround(points)),
+        box_(boxAround(input.walls)),
         result_(result) {
     energy_.block = options.block_cost > 0.0 ? options.block_cost : kBlockFaces * face_cost_;
     for (const WallLine& wall : result.walls) wall_area_ += wall.support_area;
@@ -163,6 +163,7 @@ class Labeling {
   const std::vector<LevelPoint>& level_points_;
   const WallScale& scale_;
   MethodSteps steps_;
+  unsigned int threads_;
   CellEnergyOptions energy_;
   double face_cost_;
   double wall_area_ = 0.0;
@@ -173,23 +174,22 @@ class Labeling {
 
 }  // namespace
 
-BuildingFloorplans extractBuildingFloorplans(const std::vector<WallPoint>& points,
-                                             const std::vector<LevelPoint>& level_points,
-                                             const WallScale& scale,
+BuildingFloorplans extractBuildingFloorplans(const WallInput& input,
                                              const BuildingFloorplanOptions& options) {
   BuildingFloorplans result;
-  const std::vector<WallPoint> sample = drawEvenly(points);
-  if (sample.empty()) return result;
-  WallScale sample_scale = scale;
-  sample_scale.density *= static_cast<double>(sample.size()) / static_cast<double>(points.size());
-  result.walls = findWallLines(sample, sample_scale, {options.min_wall_area, options.steps});
+  if (input.sample.empty()) return result;
+  WallScale sample_scale = input.scale;
+  sample_scale.density *=
+      static_cast<double>(input.sample.size()) / static_cast<double>(input.walls.size());
+  result.walls = findWallLines(input.sample, sample_scale,
+                               {options.min_wall_area, options.steps, options.threads});
   if (result.walls.size() < 2) return result;
   if (options.steps.hypotheses) {
-    const double corner_gap = std::sqrt(kPlanarNeighbors / (M_PI * scale.density));
-    result.hypotheses = hypothesiseLines(result.walls, sample, sample_scale, corner_gap);
+    const double corner_gap = std::sqrt(kPlanarNeighbors / (M_PI * input.scale.density));
+    result.hypotheses = hypothesiseLines(result.walls, input.sample, sample_scale, corner_gap);
   }
 
-  Labeling labeling(points, level_points, scale, options, result);
+  Labeling labeling(input, options, result);
   labeling.run();
   labeling.simplify(options.limits);
   labeling.takeOutlines(options.min_area);

@@ -25,28 +25,29 @@ Patch patchOf(const Eigen::Vector2d& p, double side) {
   return {std::lround(std::floor(p.x() / side)), std::lround(std::floor(p.y() / side))};
 }
 
-double diagonalOf(const std::vector<WallPoint>& walls) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Vector3d high = -low;
-  for (const WallPoint& p : walls) {
-    const Eigen::Vector3d at(p.position.x(), p.position.y(), p.z);
-    low = low.cwiseMin(at);
-    high = high.cwiseMax(at);
+double diagonalOf(const std::vector<Eigen::Vector3f>& walls) {
+  Eigen::Vector3f low = walls.front();
+  Eigen::Vector3f high = low;
+  for (const Eigen::Vector3f& p : walls) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
   }
-  return (high - low).norm();
+  return (high - low).cast<double>().norm();
 }
 
 // The least height in each patch of the plan, of walls and of level faces.
-std::map<Patch, double> lowest(const std::vector<WallPoint>& walls, const LevelColumns& columns,
-                               double side) {
-  std::map<Patch, std::vector<double>> heights;
-  for (const WallPoint& p : walls) heights[patchOf(p.position, side)].push_back(p.z);
+std::map<Patch, double> lowest(const std::vector<Eigen::Vector3f>& walls,
+                               const LevelColumns& columns, double side) {
+  std::map<Patch, std::vector<float>> heights;
+  for (const Eigen::Vector3f& p : walls) {
+    heights[patchOf(p.head<2>().cast<double>(), side)].push_back(p.z());
+  }
   std::map<Patch, double> low;
   for (auto& [at, values] : heights) {
     const auto place = values.begin() +
                        static_cast<std::ptrdiff_t>(kLowShare * static_cast<double>(values.size()));
     std::nth_element(values.begin(), place, values.end());
-    low[at] = *place;
+    low[at] = static_cast<double>(*place);
   }
   for (const LevelColumn& column : columns.columns) {
     double& value = low.emplace(patchOf(column.center, side), column.faces.front().z).first->second;
@@ -100,7 +101,7 @@ class Surfaces {
 
 }  // namespace
 
-void markGround(const std::vector<WallPoint>& walls, const WallScale& scale,
+void markGround(const std::vector<Eigen::Vector3f>& walls, const WallScale& scale,
                 LevelColumns& columns) {
   if (walls.empty() || columns.columns.empty()) return;
   const double side = kReach * diagonalOf(walls) / kPatchesInReach;

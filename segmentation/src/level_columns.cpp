@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/grid_cells.h>
 #include <storey/segmentation/detail/level_columns.h>
 #include <storey/segmentation/detail/wall_support.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <cstdint>
 #include <tuple>
 #include <utility>
 
@@ -15,9 +16,6 @@ constexpr double kGap = 6.0;           // noise deviations between two faces of 
 constexpr double kFlat = 2.0;          // noise deviations, spread of one face's heights
 constexpr std::size_t kMinPoints = 3;  // of a face; fewer may be outliers
 constexpr int kMinContinued = 3;       // of eight squares around
-
-using Square = std::pair<long, long>;
-using Squares = std::map<Square, std::vector<LevelFace>>;
 
 void appendFlatFace(const std::vector<LevelPoint>& points, std::size_t from, std::size_t to,
                     double noise, std::vector<LevelFace>& faces) {
@@ -49,19 +47,24 @@ std::vector<LevelFace> facesOf(const std::vector<LevelPoint>& points, double noi
   return faces;
 }
 
-bool isContinued(const Squares& squares, const Square& at, const LevelFace& face, double noise) {
+// The squares of the plan that points lie in, and their faces.
+struct Squares {
+  GridCells cells;
+  std::vector<std::vector<LevelFace>> faces;
+};
+
+bool isContinued(const Squares& squares, const GridCell& at, const LevelFace& face, double noise) {
   int continued = 0;
-  for (long dx = -1; dx <= 1; ++dx) {
-    for (long dy = -1; dy <= 1; ++dy) {
-      const auto beside = squares.find({at.first + dx, at.second + dy});
-      if ((dx == 0 && dy == 0) || beside == squares.end()) continue;
-      continued +=
-          std::any_of(beside->second.begin(), beside->second.end(),
-                      [&](const LevelFace& other) {
-                        return other.up == face.up && std::abs(other.z - face.z) < kGap * noise;
-                      })
-              ? 1
-              : 0;
+  for (std::int64_t dx = -1; dx <= 1; ++dx) {
+    for (std::int64_t dy = -1; dy <= 1; ++dy) {
+      if (dx == 0 && dy == 0) continue;
+      const std::size_t beside = squares.cells.find({at[0] + dx, at[1] + dy, 0});
+      if (beside == GridCells::kNone) continue;
+      const std::vector<LevelFace>& others = squares.faces[beside];
+      const bool goes_on = std::any_of(others.begin(), others.end(), [&](const LevelFace& other) {
+        return other.up == face.up && std::abs(other.z - face.z) < kGap * noise;
+      });
+      continued += goes_on ? 1 : 0;
     }
   }
   return continued >= kMinContinued;
@@ -70,33 +73,30 @@ bool isContinued(const Squares& squares, const Square& at, const LevelFace& face
 }  // namespace
 
 LevelColumns gatherLevelColumns(const std::vector<LevelPoint>& points, const WallScale& scale) {
-  const double side = supportCellSize(scale);
-  std::vector<std::pair<Square, LevelPoint>> order;
-  for (const LevelPoint& p : points) {
-    order.push_back({{std::lround(std::floor(p.position.x() / side)),
-                      std::lround(std::floor(p.position.y() / side))},
-                     p});
-  }
-  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.first, a.second.z, a.second.up) < std::tie(b.first, b.second.z, b.second.up);
-  });
-  Squares squares;
-  std::vector<LevelPoint> members;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    members.push_back(order[i].second);
-    if (i + 1 < order.size() && order[i + 1].first == order[i].first) continue;
-    squares.emplace_hint(squares.end(), order[i].first, facesOf(members, scale.noise));
-    members.clear();
-  }
   LevelColumns result;
-  result.side = side;
-  for (const auto& [at, faces] : squares) {
+  result.side = supportCellSize(scale);
+  Squares squares;
+  std::vector<std::vector<LevelPoint>> members;
+  for (const LevelPoint& p : points) {
+    const std::size_t square = squares.cells.add(
+        {cellAlong(p.position.x(), result.side), cellAlong(p.position.y(), result.side), 0});
+    if (square == members.size()) members.emplace_back();
+    members[square].push_back(p);
+  }
+  for (std::vector<LevelPoint>& of_square : members) {
+    std::sort(of_square.begin(), of_square.end(), [](const LevelPoint& a, const LevelPoint& b) {
+      return std::tie(a.z, a.up) < std::tie(b.z, b.up);
+    });
+    squares.faces.push_back(facesOf(of_square, scale.noise));
+  }
+  for (std::size_t s = 0; s < squares.cells.size(); ++s) {
+    const GridCell& at = squares.cells[s];
     LevelColumn column;
-    column.x = at.first;
-    column.y = at.second;
-    column.center = side * Eigen::Vector2d(static_cast<double>(at.first) + 0.5,
-                                           static_cast<double>(at.second) + 0.5);
-    for (const LevelFace& face : faces) {
+    column.x = at[0];
+    column.y = at[1];
+    column.center = result.side * Eigen::Vector2d(static_cast<double>(at[0]) + 0.5,
+                                                  static_cast<double>(at[1]) + 0.5);
+    for (const LevelFace& face : squares.faces[s]) {
       if (isContinued(squares, at, face, scale.noise)) column.faces.push_back(face);
     }
     if (!column.faces.empty()) result.columns.push_back(std::move(column));

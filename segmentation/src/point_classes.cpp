@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/grid_cells.h>
 #include <storey/segmentation/detail/level_columns.h>
 #include <storey/segmentation/detail/point_classes.h>
 #include <storey/segmentation/detail/union_find.h>
 #include <storey/segmentation/detail/wall_support.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <utility>
+#include <cstdint>
 
 namespace storey::detail {
 namespace {
@@ -22,37 +21,28 @@ constexpr double kGroundReach = 6.0;  // noise deviations from the ground's face
 constexpr double kGap = 0.5;          // of the side of the least wall
 constexpr double kMinGroup = 0.1;     // of the upright points of the largest
 
-using Cube = std::array<long, 3>;
-
-// The cubes of a grid that points lie in, numbered in ascending order.
+// The cubes of a grid that points lie in, and the number of each point's; `GridCells::kNone` for
+// those that do not count.
 struct Cubes {
-  std::vector<Cube> places;
-  std::vector<std::size_t> of;  // number of each point's
+  GridCells cells;
+  std::vector<std::size_t> of;
 };
 
-Cube cubeOf(const Eigen::Vector3d& p, double side) {
-  Cube cube{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    cube[k] = std::lround(std::floor(p[static_cast<Eigen::Index>(k)] / side));
-  }
-  return cube;
-}
-
-Cubes cubesOf(const std::vector<OrientedPoint>& points, double side) {
-  std::vector<std::pair<Cube, std::size_t>> order(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) order[i] = {cubeOf(points[i].position, side), i};
-  std::sort(order.begin(), order.end());
+template <typename Counts>
+Cubes cubesOf(const std::vector<OrientedPoint>& points, double side, const Counts& counts) {
   Cubes cubes;
-  cubes.of.resize(points.size());
-  for (const auto& [cube, i] : order) {
-    if (cubes.places.empty() || cubes.places.back() != cube) cubes.places.push_back(cube);
-    cubes.of[i] = cubes.places.size() - 1;
+  cubes.of.resize(points.size(), GridCells::kNone);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!counts(i)) continue;
+    const Eigen::Vector3d p = points[i].position.cast<double>();
+    cubes.of[i] =
+        cubes.cells.add({cellAlong(p.x(), side), cellAlong(p.y(), side), cellAlong(p.z(), side)});
   }
   return cubes;
 }
 
 PointClass byNormal(const OrientedPoint& p) {
-  const double nz = std::abs(p.normal.z());
+  const double nz = std::abs(static_cast<double>(p.normal.z()));
   return nz > kLevelNormalZ     ? PointClass::Level
          : nz < kUprightNormalZ ? PointClass::Wall
                                 : PointClass::Sloped;
@@ -60,28 +50,29 @@ PointClass byNormal(const OrientedPoint& p) {
 
 void findGround(const std::vector<OrientedPoint>& points, const WallScale& scale,
                 std::vector<PointClass>& classes) {
-  std::vector<WallPoint> walls;
   std::vector<LevelPoint> levels;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const OrientedPoint& p = points[i];
-    const Eigen::Vector2d at = p.position.head<2>();
-    if (classes[i] == PointClass::Wall) {
-      walls.push_back({at, p.position.z(), p.normal.head<2>().normalized()});
-    } else if (classes[i] == PointClass::Level) {
-      levels.push_back({at, p.position.z(), p.normal.z() > 0.0});
-    }
+    if (classes[i] != PointClass::Level) continue;
+    const Eigen::Vector3d p = points[i].position.cast<double>();
+    levels.push_back({p.head<2>(), p.z(), points[i].normal.z() > 0.0f});
   }
   LevelColumns columns = gatherLevelColumns(levels, scale);
-  markGround(walls, scale, columns);
-  std::map<std::pair<long, long>, const LevelColumn*> column_at;
-  for (const LevelColumn& column : columns.columns) column_at[{column.x, column.y}] = &column;
+  if (columns.columns.empty()) return;
+  std::vector<Eigen::Vector3f> walls;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (classes[i] != PointClass::Level || points[i].normal.z() < 0.0) continue;
-    const Cube at = cubeOf(points[i].position, columns.side);
-    const auto column = column_at.find({at[0], at[1]});
-    if (column == column_at.end()) continue;
-    for (const LevelFace& face : column->second->faces) {
-      const double off = std::abs(face.z - points[i].position.z());
+    if (classes[i] == PointClass::Wall) walls.push_back(points[i].position);
+  }
+  markGround(walls, scale, columns);
+  GridCells squares;
+  for (const LevelColumn& column : columns.columns) squares.add({column.x, column.y, 0});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (classes[i] != PointClass::Level || points[i].normal.z() < 0.0f) continue;
+    const Eigen::Vector3d p = points[i].position.cast<double>();
+    const std::size_t column =
+        squares.find({cellAlong(p.x(), columns.side), cellAlong(p.y(), columns.side), 0});
+    if (column == GridCells::kNone) continue;
+    for (const LevelFace& face : columns.columns[column].faces) {
+      const double off = std::abs(face.z - p.z());
       if (face.ground && off < kGroundReach * scale.noise) classes[i] = PointClass::Ground;
     }
   }
@@ -94,19 +85,21 @@ void findLeaning(const std::vector<OrientedPoint>& points, double side,
     double sum = 0.0;
     double squares = 0.0;
   };
-  const Cubes cubes = cubesOf(points, side);
-  std::vector<Lean> leans(cubes.places.size());
+  const Cubes cubes =
+      cubesOf(points, side, [&](std::size_t i) { return classes[i] == PointClass::Wall; });
+  std::vector<Lean> leans(cubes.cells.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (classes[i] != PointClass::Wall) continue;
+    if (cubes.of[i] == GridCells::kNone) continue;
     Lean& lean = leans[cubes.of[i]];
-    const double nz = points[i].normal.z();
+    const double nz = static_cast<double>(points[i].normal.z());
     lean.count += 1.0;
     lean.sum += nz;
     lean.squares += nz * nz;
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
+    if (cubes.of[i] == GridCells::kNone) continue;
     const Lean& lean = leans[cubes.of[i]];
-    if (classes[i] != PointClass::Wall || lean.count < kMinInCube) continue;
+    if (lean.count < kMinInCube) continue;
     const double mean = lean.sum / lean.count;
     const double variance = std::max(0.0, lean.squares / lean.count - mean * mean);
     if (std::abs(mean) > kLeaning + kLeaningDeviations * std::sqrt(variance / lean.count)) {
@@ -115,17 +108,14 @@ void findLeaning(const std::vector<OrientedPoint>& points, double side,
   }
 }
 
-// Groups of occupied cubes that touch.
-UnionFind<> groupsOf(const std::vector<Cube>& places, const std::vector<char>& occupied) {
-  UnionFind<> groups(places.size());
-  for (std::size_t c = 0; c < places.size(); ++c) {
-    if (occupied[c] == 0) continue;
-    for (long k = 0; k < 13; ++k) {  // half of the 26 around, the others come from them
-      const Cube at = {places[c][0] + k / 9 - 1, places[c][1] + k / 3 % 3 - 1,
-                       places[c][2] + k % 3 - 1};
-      const auto beside = std::lower_bound(places.begin(), places.end(), at);
-      const auto b = static_cast<std::size_t>(beside - places.begin());
-      if (beside != places.end() && *beside == at && occupied[b] != 0) groups.unite(c, b);
+// Groups of cubes that touch.
+UnionFind<> groupsOf(const GridCells& cubes) {
+  UnionFind<> groups(cubes.size());
+  for (std::size_t c = 0; c < cubes.size(); ++c) {
+    for (std::int64_t k = 0; k < 13; ++k) {  // half of the 26 around, the others come from them
+      const std::size_t beside = cubes.find(
+          {cubes[c][0] + k / 9 - 1, cubes[c][1] + k / 3 % 3 - 1, cubes[c][2] + k % 3 - 1});
+      if (beside != GridCells::kNone) groups.unite(c, beside);
     }
   }
   return groups;
@@ -133,23 +123,19 @@ UnionFind<> groupsOf(const std::vector<Cube>& places, const std::vector<char>& o
 
 void findApart(const std::vector<OrientedPoint>& points, double side,
                std::vector<PointClass>& classes) {
-  const auto grouped = [&](std::size_t i) {
+  const Cubes cubes = cubesOf(points, side, [&](std::size_t i) {
     return classes[i] != PointClass::Ground && classes[i] != PointClass::NonPlanar;
-  };
-  const Cubes cubes = cubesOf(points, side);
-  std::vector<char> occupied(cubes.places.size(), 0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (grouped(i)) occupied[cubes.of[i]] = 1;
-  }
-  UnionFind<> groups = groupsOf(cubes.places, occupied);
-  std::vector<double> upright(cubes.places.size(), 0.0);
+  });
+  UnionFind<> groups = groupsOf(cubes.cells);
+  std::vector<double> upright(cubes.cells.size(), 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (classes[i] == PointClass::Wall) upright[groups.find(cubes.of[i])] += 1.0;
   }
   if (upright.empty()) return;
   const double least = kMinGroup * *std::max_element(upright.begin(), upright.end());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (grouped(i) && upright[groups.find(cubes.of[i])] < least) classes[i] = PointClass::Apart;
+    if (cubes.of[i] == GridCells::kNone) continue;
+    if (upright[groups.find(cubes.of[i])] < least) classes[i] = PointClass::Apart;
   }
 }
 

@@ -22,18 +22,6 @@ bool isAt(const WallLine& line, const WallPoint& p, double margin) {
 
 }  // namespace
 
-double extentOf(const std::vector<WallPoint>& points) {
-  if (points.empty()) return 0.0;
-  Eigen::Vector3d low(points[0].position.x(), points[0].position.y(), points[0].z);
-  Eigen::Vector3d high = low;
-  for (const WallPoint& p : points) {
-    const Eigen::Vector3d q(p.position.x(), p.position.y(), p.z);
-    low = low.cwiseMin(q);
-    high = high.cwiseMax(q);
-  }
-  return (high - low).norm();
-}
-
 std::vector<int> assignToWalls(const std::vector<WallPoint>& points,
                                const std::vector<WallLine>& lines, const WallScale& scale) {
   std::vector<int> walls(points.size(), -1);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/point_blocks.h>
 #include <storey/segmentation/detail/wall_density.h>
 #include <storey/segmentation/detail/wall_lines.h>
 #include <storey/segmentation/detail/wall_support.h>
+#include <storey/segmentation/detail/wall_votes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,111 +35,17 @@ constexpr double kExplained = 2.5;      // noise deviations across a line
 constexpr double kSupportMargin = 5.0;  // noise deviations beyond the ends of a line
 constexpr double kLeftover = 0.8;       // of the support; a wall 2 deviations beside has 0.69
 
-// Votes over (direction, offset bin). Rows may have any set of directions.
-class VoteTable {
- public:
-  VoteTable(const std::vector<WallPoint>& points, std::vector<double> angles, double bin,
-            int window)
-      : angles_(std::move(angles)), bin_(bin), window_(window) {
-    double radius = 0.0;
-    for (const WallPoint& p : points) radius = std::max(radius, p.position.norm());
-    low_ = -radius - bin_;
-    bins_ = static_cast<int>(2.0 * (radius + bin_) / bin_) + 2;
-    votes_.assign(angles_.size() * static_cast<std::size_t>(bins_), 0);
-    peaks_.resize(angles_.size());
-    changed_.assign(angles_.size(), 1);
-    for (const double angle : angles_) {
-      normals_.emplace_back(std::cos(angle), std::sin(angle));
-    }
-  }
-
-  void vote(const WallPoint& p, int amount) {
-    for (std::size_t a = 0; a < normals_.size(); ++a) {
-      if (normals_[a].dot(p.normal) < std::cos(kVoteAngle)) continue;
-      votes_[a * static_cast<std::size_t>(bins_) +
-             static_cast<std::size_t>(binOf(normals_[a].dot(p.position)))] += amount;
-      changed_[a] = 1;
-    }
-  }
-
-  struct Peak {
-    std::size_t angle = 0;
-    int bin = 0;
-    int votes = 0;
-  };
-
-  // The window with most votes. What was struck out does not count.
-  Peak strongest() {
-    Peak best;
-    for (std::size_t a = 0; a < angles_.size(); ++a) {
-      if (changed_[a] != 0) peaks_[a] = strongestOf(a);
-      changed_[a] = 0;
-      if (peaks_[a].votes > best.votes) best = peaks_[a];
-    }
-    return best;
-  }
-
-  void strikeOut(const Peak& peak) {
-    struck_.push_back(peak);
-    changed_[peak.angle] = 1;
-  }
-
-  WallLine lineAt(const Peak& peak) const {
-    // The mean offset of the window's votes, not its middle.
-    const int* row = votes_.data() + peak.angle * static_cast<std::size_t>(bins_);
-    double sum = 0.0;
-    double weight = 0.0;
-    for (int b = peak.bin - window_ / 2; b <= peak.bin + window_ / 2; ++b) {
-      if (b < 0 || b >= bins_ || row[b] <= 0) continue;
-      sum += row[b] * (low_ + (b + 0.5) * bin_);
-      weight += row[b];
-    }
-    WallLine line;
-    line.normal = normals_[peak.angle];
-    line.offset = weight > 0.0 ? sum / weight : low_ + (peak.bin + 0.5) * bin_;
-    return line;
-  }
-
- private:
-  int binOf(double offset) const {
-    return std::clamp(static_cast<int>((offset - low_) / bin_), 0, bins_ - 1);
-  }
-  Peak strongestOf(std::size_t a) const {
-    Peak best;
-    const int* row = votes_.data() + a * static_cast<std::size_t>(bins_);
-    int sum = 0;
-    for (int b = 0; b < bins_; ++b) {
-      sum += row[b];
-      if (b >= window_) sum -= row[b - window_];
-      if (sum > best.votes && !struckOut(a, b - window_ / 2)) best = {a, b - window_ / 2, sum};
-    }
-    return best;
-  }
-  bool struckOut(std::size_t angle, int bin) const {
-    return std::any_of(struck_.begin(), struck_.end(), [&](const Peak& p) {
-      return p.angle == angle && std::abs(p.bin - bin) <= 1;
-    });
-  }
-
-  std::vector<double> angles_;
-  std::vector<Eigen::Vector2d> normals_;
-  double bin_;
-  int window_;
-  double low_ = 0.0;
-  int bins_ = 0;
-  std::vector<int> votes_;
-  std::vector<Peak> peaks_;    // of each angle
-  std::vector<char> changed_;  // angles whose peak is to be found again
-  std::vector<Peak> struck_;
-};
-
-std::vector<int> candidatesFor(const std::vector<WallPoint>& points, const std::vector<char>& free,
-                               const WallLine& line, double gate) {
+std::vector<int> candidatesFor(const std::vector<WallPoint>& points, const PointBlocks& blocks,
+                               const std::vector<char>& free, const WallLine& line, double gate) {
   std::vector<int> candidates;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (free[i] != 0 && std::abs(line.across(points[i].position)) < gate &&
-        line.normal.dot(points[i].normal) >= std::cos(kVoteAngle)) {
-      candidates.push_back(static_cast<int>(i));
+  const double agreement = std::cos(kVoteAngle);
+  for (std::size_t block = 0; block < blocks.size(); ++block) {
+    if (!blocks.mayBeNear(block, line.normal, line.offset, gate)) continue;
+    for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) {
+      if (free[i] != 0 && std::abs(line.across(points[i].position)) < gate &&
+          line.normal.dot(points[i].normal) >= agreement) {
+        candidates.push_back(static_cast<int>(i));
+      }
     }
   }
   return candidates;
@@ -149,15 +57,17 @@ struct FoundLine {
 };
 
 // One greedy pass: strongest line, its support, take its points away, again.
-void extractGreedily(const std::vector<WallPoint>& points, const WallScale& scale,
-                     const WallLineOptions& options, bool free_direction,
+void extractGreedily(const std::vector<WallPoint>& points, const PointBlocks& blocks,
+                     const WallScale& scale, const WallLineOptions& options, bool free_direction,
                      std::vector<double> angles, std::vector<char>& free,
                      std::vector<FoundLine>& lines) {
   VoteTable table(points, std::move(angles), scale.noise * (free_direction ? kFreeBin : kLockedBin),
-                  free_direction ? kFreeWindow : kLockedWindow);
+                  free_direction ? kFreeWindow : kLockedWindow, options.threads);
+  std::vector<int> voters;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (free[i] != 0) table.vote(points[i], 1);
+    if (free[i] != 0) voters.push_back(static_cast<int>(i));
   }
+  table.vote(voters, 1);
   SupportOptions support_options;
   support_options.fit_direction = free_direction;
   support_options.steps = options.steps;
@@ -166,7 +76,8 @@ void extractGreedily(const std::vector<WallPoint>& points, const WallScale& scal
     const VoteTable::Peak peak = table.strongest();
     if (peak.votes < least_votes) return;
     WallLine line = table.lineAt(peak);
-    const std::vector<int> candidates = candidatesFor(points, free, line, 12.0 * scale.noise);
+    const std::vector<int> candidates =
+        candidatesFor(points, blocks, free, line, 12.0 * scale.noise);
     std::vector<int> support = fitToSupport(points, candidates, scale, support_options, line);
     if (support.empty() || line.support_area < options.min_area) {
       table.strikeOut(peak);
@@ -174,19 +85,17 @@ void extractGreedily(const std::vector<WallPoint>& points, const WallScale& scal
       continue;
     }
     failures = 0;
-    for (const int i : support) {
-      free[static_cast<std::size_t>(i)] = 0;
-      table.vote(points[static_cast<std::size_t>(i)], -1);
-    }
+    for (const int i : support) free[static_cast<std::size_t>(i)] = 0;
+    table.vote(support, -1);
     lines.push_back({std::move(line), std::move(support)});
   }
 }
 
 // Walls at heights with much fewer points than the rest, octave by octave of their density.
-void extractThinParts(const std::vector<WallPoint>& points, const WallScale& scale,
-                      const WallLineOptions& options, const std::vector<double>& locked,
-                      const std::vector<double>& all_around, std::vector<char>& free,
-                      std::vector<FoundLine>& lines) {
+void extractThinParts(const std::vector<WallPoint>& points, const PointBlocks& blocks,
+                      const WallScale& scale, const WallLineOptions& options,
+                      const std::vector<double>& locked, const std::vector<double>& all_around,
+                      std::vector<char>& free, std::vector<FoundLine>& lines) {
   const HeightDensity density(points, scale);
   const double least = kThinnest * scale.density;
   for (double most = kThin * scale.density; most > std::max(least, density.least()); most *= 0.5) {
@@ -198,8 +107,9 @@ void extractThinParts(const std::vector<WallPoint>& points, const WallScale& sca
       if (there > most || there < least) free_there[i] = 0;
     }
     const std::vector<char> before = free_there;
-    if (!locked.empty()) extractGreedily(points, thin, options, false, locked, free_there, lines);
-    extractGreedily(points, thin, options, true, all_around, free_there, lines);
+    if (!locked.empty())
+      extractGreedily(points, blocks, thin, options, false, locked, free_there, lines);
+    extractGreedily(points, blocks, thin, options, true, all_around, free_there, lines);
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (before[i] != free_there[i]) free[i] = 0;
     }
@@ -303,10 +213,10 @@ bool isLeftover(const std::vector<int>& support, const std::vector<WallLine>& st
 
 }  // namespace
 
-std::vector<WallPoint> drawEvenly(const std::vector<WallPoint>& points) {
+pcl::Indices drawEvenly(const pcl::Indices& points) {
   const std::size_t step = points.size() / kMaxSamples + 1;
   if (step == 1) return points;
-  std::vector<WallPoint> sample;
+  pcl::Indices sample;
   // Golden-ratio stepping inside each stride, so that the order of a scanner leaves no pattern.
   double phase = 0.5;
   for (std::size_t i = 0; i < points.size(); i += step) {
@@ -323,9 +233,10 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
   for (int a = 0; a < kFreeAngles; ++a)
     all_around[static_cast<std::size_t>(a)] = 2.0 * M_PI * a / kFreeAngles;
 
+  const PointBlocks blocks(points);
   std::vector<char> free(points.size(), 1);
   std::vector<FoundLine> free_lines;
-  extractGreedily(points, scale, options, true, all_around, free, free_lines);
+  extractGreedily(points, blocks, scale, options, true, all_around, free, free_lines);
 
   std::vector<double> oriented;
   if (options.steps.locked_directions) {
@@ -337,11 +248,11 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
   std::fill(free.begin(), free.end(), 1);
   std::vector<FoundLine> lines;
   if (!oriented.empty()) {
-    extractGreedily(points, scale, options, false, oriented, free, lines);
+    extractGreedily(points, blocks, scale, options, false, oriented, free, lines);
   }
-  extractGreedily(points, scale, options, true, all_around, free, lines);
+  extractGreedily(points, blocks, scale, options, true, all_around, free, lines);
   if (options.steps.thin_heights)
-    extractThinParts(points, scale, options, oriented, all_around, free, lines);
+    extractThinParts(points, blocks, scale, options, oriented, all_around, free, lines);
 
   std::stable_sort(lines.begin(), lines.end(), [](const FoundLine& a, const FoundLine& b) {
     return a.line.support > b.line.support;

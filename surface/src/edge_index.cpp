@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace storey::detail {
 namespace {
 
 constexpr double kMaxCellsPerSide = 256.0;
+constexpr double kCellsPerSide = 24.0;  // times the root of the number of stretches
 // A given normal may be 15 degrees of noise off; beyond 70 the point is of another wall.
 constexpr double kMinNormalDot = 0.35;
 
@@ -34,6 +36,21 @@ std::vector<WallStretch> stretchesOf(const Floorplan& plan) {
 EdgeIndex::EdgeIndex(std::vector<WallStretch> stretches, double gate)
     : stretches_(std::move(stretches)), gate_(gate), low_(Eigen::Vector2d::Zero()) {
   if (stretches_.empty()) return;
+  layGrid();
+  first_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+  for (const WallStretch& s : stretches_) {
+    forEachCellNear(s, [&](std::size_t cell) { ++first_[cell + 1]; });
+  }
+  for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+  candidates_.resize(first_.back());
+  std::vector<std::size_t> next = first_;
+  for (std::size_t i = 0; i < stretches_.size(); ++i) {
+    forEachCellNear(stretches_[i],
+                    [&](std::size_t cell) { candidates_[next[cell]++] = static_cast<int>(i); });
+  }
+}
+
+void EdgeIndex::layGrid() {
   Eigen::Vector2d high = stretches_.front().start;
   low_ = high;
   for (const WallStretch& s : stretches_) {
@@ -44,52 +61,66 @@ EdgeIndex::EdgeIndex(std::vector<WallStretch> stretches, double gate)
   low_.array() -= gate_;
   high.array() += gate_;
   const double extent = (high - low_).maxCoeff();
-  cell_ = std::max(2.0 * gate_, extent / kMaxCellsPerSide);
+  const double sides =
+      std::min(kMaxCellsPerSide, kCellsPerSide * std::sqrt(static_cast<double>(stretches_.size())));
+  cell_ = std::max(2.0 * gate_, extent / sides);
   columns_ = static_cast<std::ptrdiff_t>((high.x() - low_.x()) / cell_) + 1;
   rows_ = static_cast<std::ptrdiff_t>((high.y() - low_.y()) / cell_) + 1;
-  cells_.resize(static_cast<std::size_t>(columns_ * rows_));
+}
+
+template <typename Work>
+void EdgeIndex::forEachCellNear(const WallStretch& stretch, const Work& work) const {
   const double reach = gate_ + 0.7072 * cell_;  // from the cell's centre to its corner
-  for (std::ptrdiff_t r = 0; r < rows_; ++r) {
-    for (std::ptrdiff_t c = 0; c < columns_; ++c) {
-      const Eigen::Vector2d centre = low_ + cell_ * Eigen::Vector2d(static_cast<double>(c) + 0.5,
-                                                                    static_cast<double>(r) + 0.5);
-      for (std::size_t i = 0; i < stretches_.size(); ++i) {
-        const WallStretch& s = stretches_[i];
-        const Eigen::Vector2d d = centre - s.start;
-        const double along = std::clamp(d.dot(s.tangent), 0.0, s.length);
-        if ((d - along * s.tangent).norm() <= reach) {
-          cells_[static_cast<std::size_t>(r * columns_ + c)].push_back(static_cast<int>(i));
-        }
-      }
+  const Eigen::Vector2d end = stretch.start + stretch.length * stretch.tangent;
+  const auto range = [&](double a, double b, double low, std::ptrdiff_t count) {
+    const auto from = static_cast<std::ptrdiff_t>((std::min(a, b) - reach - low) / cell_);
+    const auto to = static_cast<std::ptrdiff_t>((std::max(a, b) + reach - low) / cell_);
+    return std::make_pair(std::max(std::ptrdiff_t{0}, from), std::min(count - 1, to));
+  };
+  const double rise = stretch.tangent.y();
+  const auto [first_row, last_row] = range(stretch.start.y(), end.y(), low_.y(), rows_);
+  for (std::ptrdiff_t r = first_row; r <= last_row; ++r) {
+    const double y = low_.y() + cell_ * (static_cast<double>(r) + 0.5);
+    // The part of the stretch that is within reach of the row.
+    double from = 0.0;
+    double to = stretch.length;
+    if (std::abs(rise) * stretch.length > cell_) {
+      const double below = (y - reach - stretch.start.y()) / rise;
+      const double above = (y + reach - stretch.start.y()) / rise;
+      from = std::clamp(std::min(below, above), 0.0, stretch.length);
+      to = std::clamp(std::max(below, above), 0.0, stretch.length);
+    }
+    const double x = stretch.start.x();
+    const auto [first, last] =
+        range(x + from * stretch.tangent.x(), x + to * stretch.tangent.x(), low_.x(), columns_);
+    for (std::ptrdiff_t c = first; c <= last; ++c) {
+      const Eigen::Vector2d centre(low_.x() + cell_ * (static_cast<double>(c) + 0.5), y);
+      const Eigen::Vector2d d = centre - stretch.start;
+      const double along = std::clamp(d.dot(stretch.tangent), 0.0, stretch.length);
+      if ((d - along * stretch.tangent).squaredNorm() > reach * reach) continue;
+      work(static_cast<std::size_t>(r * columns_ + c));
     }
   }
 }
 
-std::size_t EdgeIndex::cellOf(const Eigen::Vector2d& point) const {
+EdgeIndex::Candidates EdgeIndex::candidates(const Eigen::Vector2d& point) const {
   const double x = (point.x() - low_.x()) / cell_;
   const double y = (point.y() - low_.y()) / cell_;
   if (!(x >= 0.0 && y >= 0.0 && x < static_cast<double>(columns_) &&
         y < static_cast<double>(rows_))) {
-    return cells_.size();
+    return {};
   }
-  return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(y) * columns_ +
-                                  static_cast<std::ptrdiff_t>(x));
-}
-
-const std::vector<int>& EdgeIndex::candidates(const Eigen::Vector2d& point) const {
-  static const std::vector<int> none;
-  const std::size_t cell = cellOf(point);
-  return cell < cells_.size() ? cells_[cell] : none;
+  const auto cell = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(y) * columns_ +
+                                             static_cast<std::ptrdiff_t>(x));
+  return {candidates_.data() + first_[cell], candidates_.data() + first_[cell + 1]};
 }
 
 int EdgeIndex::nearest(const Eigen::Vector2d& point, const Eigen::Vector2d& normal,
                        double margin) const {
-  const std::size_t cell = cellOf(point);
-  if (cell >= cells_.size()) return -1;
   const bool has_normal = normal.squaredNorm() > 0.0;
   int best = -1;
   double best_distance = gate_;
-  for (const int i : cells_[cell]) {
+  for (const int i : candidates(point)) {
     const WallStretch& s = stretches_[static_cast<std::size_t>(i)];
     if (has_normal && s.normal().dot(normal) < kMinNormalDot) continue;
     const Eigen::Vector2d d = point - s.start;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/console/print.h>
+#include <storey/filters/detail/chunks.h>
 #include <storey/surface/detail/edge_index.h>
 #include <storey/surface/face_support.h>
 
@@ -92,12 +93,6 @@ class FlatFace {
   double area_ = 0.0;
   Eigen::AlignedBox2d box_;
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> edges_;
-};
-
-// A point on its face.
-struct Hit {
-  std::size_t face;
-  Eigen::Vector2f place;
 };
 
 // Finds the face that a point lies on.
@@ -223,31 +218,56 @@ double cellSize(const std::vector<FlatFace>& faces, const PolyhedralModel& model
   return cell;
 }
 
-std::vector<Hit> findHits(const std::vector<FlatFace>& faces, const FitPoints& points, double noise,
-                          PolyhedralModel& model) {
+// The face of each point, or -1.
+std::vector<int> facesOf(const FitPoints& points, const std::vector<FlatFace>& faces, double noise,
+                         unsigned int threads) {
   const FaceIndex index(faces, noise);
-  std::vector<Hit> hits;
-  std::vector<double> squares(faces.size(), 0.0);
-  for (std::size_t i = 0; i < points.positions.size(); ++i) {
-    const Eigen::Vector3d p = points.positions[i].cast<double>();
-    const int face = index.faceOf(p, points.normals[i].cast<double>());
-    if (face < 0) continue;
-    const auto f = static_cast<std::size_t>(face);
-    hits.push_back({f, faces[f].project(p).cast<float>()});
-    squares[f] += faces[f].across(p) * faces[f].across(p);
-    ++model.faces[f].support;
+  std::vector<int> face_of(points.positions.size());
+  const auto work = [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      face_of[i] =
+          index.faceOf(points.positions[i].cast<double>(), points.normals[i].cast<double>());
+    }
+  };
+  detail::forEachChunk(face_of.size(), threads, work);
+  return face_of;
+}
+
+struct FacePoints {
+  std::size_t count = 0;
+  double squares = 0.0;  // of their distances across
+
+  FacePoints& operator+=(const FacePoints& other) {
+    count += other.count;
+    squares += other.squares;
+    return *this;
   }
+};
+
+void sumResiduals(const FitPoints& points, const std::vector<int>& face_of,
+                  const std::vector<FlatFace>& faces, unsigned int threads,
+                  PolyhedralModel& model) {
+  const std::vector<FacePoints> sums = detail::sumByChunks(
+      face_of.size(), threads, std::vector<FacePoints>(faces.size()),
+      [&](std::size_t begin, std::size_t end, std::vector<FacePoints>& part) {
+        for (std::size_t i = begin; i < end; ++i) {
+          if (face_of[i] < 0) continue;
+          const auto f = static_cast<std::size_t>(face_of[i]);
+          const double across = faces[f].across(points.positions[i].cast<double>());
+          part[f] += {1, across * across};
+        }
+      });
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    const std::size_t support = model.faces[f].support;
-    model.faces[f].residual =
-        support > 0 ? std::sqrt(squares[f] / static_cast<double>(support)) : 0.0;
+    const auto& [count, squares] = sums[f];
+    model.faces[f].support = count;
+    model.faces[f].residual = count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
   }
-  return hits;
 }
 
 }  // namespace
 
-void measureSupport(const FitPoints& points, double noise, PolyhedralModel& model) {
+void measureSupport(const FitPoints& points, double noise, PolyhedralModel& model,
+                    unsigned int threads) {
   if (!(noise > 0.0) || std::isinf(noise) || points.normals.size() != points.positions.size()) {
     PCL_ERROR("[storey::measureSupport] noise is %g, and there are %zu normals for %zu points.\n",
               noise, points.normals.size(), points.positions.size());
@@ -259,12 +279,17 @@ void measureSupport(const FitPoints& points, double noise, PolyhedralModel& mode
     face.support = 0;
     face.coverage = 0.0;
   }
-  const std::vector<Hit> hits = findHits(faces, points, noise, model);
-  if (!hits.empty()) {
+  const std::vector<int> face_of = facesOf(points, faces, noise, threads);
+  sumResiduals(points, face_of, faces, threads, model);
+  if (std::any_of(face_of.begin(), face_of.end(), [](int f) { return f >= 0; })) {
     const double cell = cellSize(faces, model, noise, points.positions.size());
     std::vector<Coverage> coverages;
     for (const FlatFace& face : faces) coverages.emplace_back(face, cell);
-    for (const Hit& hit : hits) coverages[hit.face].add(hit.place.cast<double>());
+    for (std::size_t i = 0; i < face_of.size(); ++i) {
+      if (face_of[i] < 0) continue;
+      const auto f = static_cast<std::size_t>(face_of[i]);
+      coverages[f].add(faces[f].project(points.positions[i].cast<double>()));
+    }
     for (std::size_t f = 0; f < faces.size(); ++f) model.faces[f].coverage = coverages[f].share();
   }
   for (PolyhedralFace& face : model.faces) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/chunks.h>
 #include <storey/surface/extrusion.h>
 #include <storey/surface/face_support.h>
 #include <storey/surface/layerwise_model.h>
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace storey {
 namespace {
@@ -33,9 +35,17 @@ double noiseOfWalls(const std::map<int, WallFit>& walls, double guess) {
   return guess;
 }
 
-void setUpright(const Eigen::Isometry3d& upright, FitPoints& points) {
-  for (Eigen::Vector3f& p : points.positions) p = (upright * p.cast<double>()).cast<float>();
-  for (Eigen::Vector3f& n : points.normals) n = (upright.linear() * n.cast<double>()).cast<float>();
+void setUpright(const Eigen::Isometry3d& upright, unsigned int threads, FitPoints& points) {
+  if (upright.matrix().isIdentity(0.0)) return;
+  const auto work = [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Eigen::Vector3f& p = points.positions[i];
+      Eigen::Vector3f& n = points.normals[i];
+      p = (upright * p.cast<double>()).cast<float>();
+      n = (upright.linear() * n.cast<double>()).cast<float>();
+    }
+  };
+  detail::forEachChunk(points.positions.size(), threads, work);
 }
 
 // Walls and heights of the blocks, the solid, its checks.
@@ -47,10 +57,12 @@ void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, Layer
   fit.share_directions = options.steps.shared_directions;
   fit.find_panes = options.steps.panes;
   fit.max_shift = kHeightSearchInSlices * options.slice_thickness;
+  fit.threads = options.threads;
   fitWalls(layers, points, fit);
   fitHeights(layers, points, fit);
-  if (options.steps.upright) result.upright = fitUpright(layers, points, options.noise);
-  setUpright(result.upright, points);
+  if (options.steps.upright)
+    result.upright = fitUpright(layers, points, options.noise, options.threads);
+  setUpright(result.upright, options.threads, points);
   result.walls = fitWalls(layers, points, fit);  // now each point in the layer that it is of
   fit.noise = noiseOfWalls(result.walls, options.noise);
   if (options.steps.unseen_walls) fitUnseenWalls(layers, points, fit.noise, result.walls);
@@ -59,7 +71,7 @@ void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, Layer
   result.model = extrudeFloorplans(layers, options.grid);
   result.check = checkModel(result.model);
   if (result.model.empty()) return;
-  measureSupport(points, fit.noise, result.model);
+  measureSupport(points, fit.noise, result.model, options.threads);
   propagateDeviations(result.walls, result.levels, result.model);
 }
 
@@ -77,16 +89,16 @@ std::multiset<int> wallsOf(const Floorplan& plan) {
 
 }  // namespace
 
-LayerwiseModel buildLayerwiseModel(const std::vector<FloorplanLayer>& slices,
-                                   const FitPoints& points, const LayerwiseModelOptions& options) {
+LayerwiseModel buildLayerwiseModel(const std::vector<FloorplanLayer>& slices, FitPoints points,
+                                   const LayerwiseModelOptions& options) {
   LayerwiseModel result;
   result.dominant = selectDominantFloorplans(slices, options.dominant);
-  fitAndExtrude(points, options, result);
+  fitAndExtrude(std::move(points), options, result);
   return result;
 }
 
-LayerwiseModel buildModelOfBlocks(const std::vector<FloorplanLayer>& blocks,
-                                  const FitPoints& points, const LayerwiseModelOptions& options) {
+LayerwiseModel buildModelOfBlocks(const std::vector<FloorplanLayer>& blocks, FitPoints points,
+                                  const LayerwiseModelOptions& options) {
   LayerwiseModel result;
   result.dominant.blocks = blocks;
   std::vector<std::multiset<int>> types;
@@ -98,7 +110,7 @@ LayerwiseModel buildModelOfBlocks(const std::vector<FloorplanLayer>& blocks,
   }
   result.dominant.num_types = static_cast<int>(types.size());
   result.dominant.num_candidates = result.dominant.num_types;
-  fitAndExtrude(points, options, result);
+  fitAndExtrude(std::move(points), options, result);
   return result;
 }
 

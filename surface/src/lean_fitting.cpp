@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/console/print.h>
+#include <storey/filters/detail/chunks.h>
 #include <storey/surface/detail/wall_assignment.h>
 #include <storey/surface/floorplan_fitting.h>
 
@@ -19,26 +20,42 @@ constexpr std::size_t kMinSupport = 20;  // points of a wall
 constexpr double kMinPivot = 1e-9;       // of the largest: below, there is no solution
 
 // Weighted moments of the points of a wall, across it against (1, along it, height).
-struct LeaningWall {
-  Eigen::Vector2d reference;
-  Eigen::Vector2d normal;
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+struct Moments {
+  Eigen::Matrix3d rows = Eigen::Matrix3d::Zero();
   Eigen::Vector3d products = Eigen::Vector3d::Zero();
   double squares = 0.0;
   std::size_t support = 0;
 
-  void add(const Eigen::Vector3d& point, double scale) {
+  Moments& operator+=(const Moments& other) {
+    rows += other.rows;
+    products += other.products;
+    squares += other.squares;
+    support += other.support;
+    return *this;
+  }
+};
+
+struct Line {
+  Eigen::Vector2d reference;
+  Eigen::Vector2d normal;
+
+  void addTo(Moments& sum, const Eigen::Vector3d& point, double scale) const {
     const Eigen::Vector2d r = point.head<2>() - reference;
     const double across = r.dot(normal);
     const double u = across / scale;
     if (std::abs(u) >= 1.0) return;
     const double weight = (1.0 - u * u) * (1.0 - u * u);
     const Eigen::Vector3d row(1.0, normal.x() * r.y() - normal.y() * r.x(), point.z());
-    moments += weight * row * row.transpose();
-    products += weight * across * row;
-    squares += weight * across * across;
-    ++support;
+    sum.rows += weight * row * row.transpose();
+    sum.products += weight * across * row;
+    sum.squares += weight * across * across;
+    ++sum.support;
   }
+};
+
+struct LeaningWall {
+  Line line;
+  Moments moments;
 };
 
 // c of a wall: how far it moves outwards with each unit of height.
@@ -48,40 +65,44 @@ struct Lean {
   double variance = 0.0;
 };
 
-std::map<int, LeaningWall> collect(const std::vector<FloorplanLayer>& layers,
-                                   const FitPoints& points, const Eigen::Vector3d& middle,
-                                   double noise) {
-  std::map<int, LeaningWall> walls;
+std::vector<LeaningWall> collect(const std::vector<FloorplanLayer>& layers, const FitPoints& points,
+                                 const Eigen::Vector3d& middle, double noise,
+                                 unsigned int threads) {
+  std::map<int, Line> lines;
   for (const FloorplanLayer& layer : layers) {
     for (const detail::WallStretch& stretch : detail::stretchesOf(layer.plan)) {
       if (stretch.wall < 0) continue;
-      LeaningWall wall;
-      wall.reference = stretch.start - middle.head<2>();
-      wall.normal = stretch.normal();
-      walls.emplace(stretch.wall, wall);
+      lines.emplace(stretch.wall, Line{stretch.start - middle.head<2>(), stretch.normal()});
     }
   }
-  const detail::WallAssignment assignment(layers, noise);
-  for (std::size_t i = 0; i < points.positions.size(); ++i) {
-    const auto wall = walls.find(assignment.wallOf(points.positions[i], points.normals[i]));
-    if (wall == walls.end()) continue;
-    wall->second.add(points.positions[i].cast<double>() - middle, kTukey * noise);
-  }
+  std::vector<LeaningWall> walls;
+  for (const auto& [id, line] : lines) walls.push_back({line, {}});
+  const std::vector<int> wall_of = detail::WallAssignment(layers, noise).wallsOf(points, threads);
+  const std::vector<Moments> sums = detail::sumByChunks(
+      wall_of.size(), threads, std::vector<Moments>(walls.size()),
+      [&](std::size_t begin, std::size_t end, std::vector<Moments>& part) {
+        for (std::size_t i = begin; i < end; ++i) {
+          if (wall_of[i] < 0) continue;
+          const auto k = static_cast<std::size_t>(wall_of[i]);
+          walls[k].line.addTo(part[k], points.positions[i].cast<double>() - middle, kTukey * noise);
+        }
+      });
+  for (std::size_t k = 0; k < walls.size(); ++k) walls[k].moments = sums[k];
   return walls;
 }
 
-std::vector<Lean> leansOf(const std::map<int, LeaningWall>& walls) {
+std::vector<Lean> leansOf(const std::vector<LeaningWall>& walls) {
   std::vector<Lean> leans;
-  for (const auto& [id, wall] : walls) {
-    if (wall.support < kMinSupport) continue;
-    Eigen::FullPivLU<Eigen::Matrix3d> lu(wall.moments);
+  for (const auto& [line, moments] : walls) {
+    if (moments.support < kMinSupport) continue;
+    Eigen::FullPivLU<Eigen::Matrix3d> lu(moments.rows);
     lu.setThreshold(kMinPivot);
     if (!lu.isInvertible()) continue;
     const Eigen::Matrix3d inverse = lu.inverse();
-    const Eigen::Vector3d fit = inverse * wall.products;
+    const Eigen::Vector3d fit = inverse * moments.products;
     const double residual =
-        std::max(0.0, wall.squares - fit.dot(wall.products)) / wall.moments(0, 0);
-    leans.push_back({wall.normal, fit[2], residual * inverse(2, 2) + kWallLean * kWallLean});
+        std::max(0.0, moments.squares - fit.dot(moments.products)) / moments.rows(0, 0);
+    leans.push_back({line.normal, fit[2], residual * inverse(2, 2) + kWallLean * kWallLean});
   }
   return leans;
 }
@@ -117,7 +138,7 @@ Eigen::Vector2d commonLean(const std::vector<Lean>& leans) {
 }  // namespace
 
 Eigen::Isometry3d fitUpright(const std::vector<FloorplanLayer>& layers, const FitPoints& points,
-                             double noise) {
+                             double noise, unsigned int threads) {
   Eigen::Isometry3d upright = Eigen::Isometry3d::Identity();
   if (!(noise > 0.0) || std::isinf(noise) || points.normals.size() != points.positions.size()) {
     PCL_ERROR("[storey::fitUpright] noise is %g, and there are %zu normals for %zu points.\n",
@@ -128,7 +149,7 @@ Eigen::Isometry3d fitUpright(const std::vector<FloorplanLayer>& layers, const Fi
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3f& p : points.positions) middle += p.cast<double>();
   middle /= static_cast<double>(points.positions.size());
-  const Eigen::Vector2d lean = commonLean(leansOf(collect(layers, points, middle, noise)));
+  const Eigen::Vector2d lean = commonLean(leansOf(collect(layers, points, middle, noise, threads)));
   if (lean.isZero()) return upright;
   upright.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(lean.x(), lean.y(), 1.0),
                                                         Eigen::Vector3d::UnitZ())

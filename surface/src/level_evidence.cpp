@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/chunks.h>
 #include <storey/surface/detail/edge_index.h>
 #include <storey/surface/detail/level_evidence.h>
 
@@ -150,6 +151,15 @@ bool isCap(const std::vector<FloorplanLayer>& layers, std::size_t k, const Eigen
 
 }  // namespace
 
+LevelEvidence& LevelEvidence::operator+=(const LevelEvidence& other) {
+  const auto own = lists();
+  const auto more = other.lists();
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    own[i]->insert(own[i]->end(), more[i]->begin(), more[i]->end());
+  }
+  return *this;
+}
+
 std::vector<LevelEvidence> collectLevelEvidence(const std::vector<FloorplanLayer>& layers,
                                                 const FitPoints& points,
                                                 const FitOptions& options) {
@@ -160,27 +170,32 @@ std::vector<LevelEvidence> collectLevelEvidence(const std::vector<FloorplanLayer
     walls.emplace_back(k > 0 ? stretchesOf(layers[k - 1].plan) : Stretches(),
                        k < n ? stretchesOf(layers[k].plan) : Stretches(), options.noise);
   }
-  for (std::size_t i = 0; i < points.positions.size(); ++i) {
-    const Eigen::Vector3d p = points.positions[i].cast<double>();
-    const Eigen::Vector3d normal = points.normals[i].cast<double>();
-    const bool of_wall = isWallNormal(points.normals[i]);
+  const auto note = [&](const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
+                        std::vector<LevelEvidence>& notes) {
+    const Eigen::Vector3d p = position.cast<double>();
+    const bool of_wall = isWallNormal(normal);
     // Levels are sorted, and windows overlap only with their neighbours'.
-    const auto next =
-        std::lower_bound(levels.begin(), levels.end(), p.z(),
-                         [](const LevelEvidence& level, double z) { return level.high < z; });
-    for (auto level = next; level != levels.end() && level->low <= p.z(); ++level) {
-      const auto k = static_cast<std::size_t>(level - levels.begin());
-      if (!of_wall) {
-        if (isCap(layers, k, p.head<2>(), normal.z() > 0.0)) level->caps.push_back(p.z());
-        continue;
+    auto level = std::lower_bound(notes.begin(), notes.end(), p.z(),
+                                  [](const LevelEvidence& l, double z) { return l.high < z; });
+    for (; level != notes.end() && level->low <= p.z(); ++level) {
+      const auto k = static_cast<std::size_t>(level - notes.begin());
+      if (of_wall) {
+        walls[k].note(p, normal.head<2>().cast<double>(), *level);
+      } else if (isCap(layers, k, p.head<2>(), normal.z() > 0.0f)) {
+        level->caps.push_back(p.z());
       }
-      walls[k].note(p, normal.head<2>(), *level);
     }
-  }
-  for (LevelEvidence& level : levels) {
-    for (std::vector<double>* heights :
-         {&level.ends[0], &level.ends[1], &level.starts[0], &level.starts[1], &level.caps}) {
-      std::sort(heights->begin(), heights->end());
+  };
+  levels = sumByChunks(points.positions.size(), options.threads, levels,
+                       [&](std::size_t begin, std::size_t end, std::vector<LevelEvidence>& notes) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           note(points.positions[i], points.normals[i], notes);
+                         }
+                       });
+#pragma omp parallel for num_threads(threadsFor(options.threads)) schedule(dynamic, 1)
+  for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(levels.size()); ++k) {
+    for (auto* list : levels[static_cast<std::size_t>(k)].lists()) {
+      std::sort(list->begin(), list->end());
     }
   }
   return levels;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/chunks.h>
 #include <storey/surface/detail/wall_assignment.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace storey::detail {
 namespace {
@@ -16,9 +18,33 @@ constexpr double kEndMargin = 1.5;
 
 WallAssignment::WallAssignment(const std::vector<FloorplanLayer>& layers, double noise)
     : layers_(layers), margin_(kEndMargin * noise) {
+  std::vector<std::vector<WallStretch>> stretches;
   for (const FloorplanLayer& layer : layers) {
-    indices_.emplace_back(stretchesOf(layer.plan), kGate * noise);
+    stretches.push_back(stretchesOf(layer.plan));
+    for (const WallStretch& stretch : stretches.back()) {
+      if (stretch.wall >= 0) ids_.push_back(stretch.wall);
+    }
   }
+  std::sort(ids_.begin(), ids_.end());
+  ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
+  for (std::vector<WallStretch>& of_layer : stretches) {
+    for (WallStretch& stretch : of_layer) {
+      if (stretch.wall < 0) continue;
+      const auto id = std::lower_bound(ids_.begin(), ids_.end(), stretch.wall);
+      stretch.wall = static_cast<int>(id - ids_.begin());
+    }
+    indices_.emplace_back(std::move(of_layer), kGate * noise);
+  }
+}
+
+std::vector<int> WallAssignment::wallsOf(const FitPoints& points, unsigned int threads) const {
+  std::vector<int> walls(points.positions.size());
+  forEachChunk(walls.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      walls[i] = wallOf(points.positions[i], points.normals[i]);
+    }
+  });
+  return walls;
 }
 
 int WallAssignment::wallOf(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const {

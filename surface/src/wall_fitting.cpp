@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/console/print.h>
+#include <storey/filters/detail/chunks.h>
 #include <storey/surface/detail/wall_assignment.h>
 #include <storey/surface/detail/wall_corners.h>
 #include <storey/surface/detail/wall_panes.h>
@@ -25,29 +26,11 @@ constexpr double kMaxAngleDeviation = 0.05;  // rad; a wall that tells less keep
 constexpr double kSameDirection = 3.5;       // standard deviations
 constexpr std::size_t kMinSupport = 8;       // points
 
-// A wall while it is fitted: its line, and the weighted moments of its points along (s) and across
-// (d) it, about the reference point.
-struct Wall {
-  Eigen::Vector2d reference;
-  Eigen::Vector2d normal;
+// Weighted moments of the points of a wall along (s) and across (d) it, about its reference point.
+struct Moments {
   double w = 0.0, s = 0.0, d = 0.0, ss = 0.0, sd = 0.0, dd = 0.0;
   std::size_t support = 0;
-  std::vector<Eigen::Vector2d> points;  // along and across
-  detail::WallPanes panes;
 
-  Eigen::Vector2d tangent() const { return {-normal.y(), normal.x()}; }
-  double spread() const { return ss - s * s / w; }  // of the points along the wall
-  // Of the middle of the points. Panes beyond the gate count there, the moments do not.
-  double across(double noise) const { return panes.in_use ? panes.offset * noise : d / w; }
-  double residual(double slope) const {
-    const double mean = d / w;
-    const double variance = (dd - d * mean - slope * (sd - s * mean)) / w;
-    return std::sqrt(std::max(0.0, variance)) / kTukeyScatter;
-  }
-  void collect(const Eigen::Vector2d& point) {
-    const Eigen::Vector2d r = point - reference;
-    points.emplace_back(r.dot(tangent()), r.dot(normal));
-  }
   void add(double along, double across, double weight) {
     w += weight;
     s += weight * along;
@@ -57,100 +40,160 @@ struct Wall {
     dd += weight * across * across;
     ++support;
   }
+  Moments& operator+=(const Moments& m) {
+    w += m.w, s += m.s, d += m.d, ss += m.ss, sd += m.sd, dd += m.dd, support += m.support;
+    return *this;
+  }
 };
 
-using Walls = std::map<int, Wall>;
+// A wall while it is fitted.
+struct Wall {
+  int id = -1;
+  Eigen::Vector2d reference;
+  Eigen::Vector2d normal;
+  Moments sums;
+  detail::WallPanes panes;
 
-// The lines as the layers have them: of each wall its longest edge.
+  Eigen::Vector2d tangent() const { return {-normal.y(), normal.x()}; }
+  double spread() const { return sums.ss - sums.s * sums.s / sums.w; }  // of the points along it
+  // Of the middle of the points. Panes beyond the gate count there, the moments do not.
+  double across(double noise) const {
+    return panes.in_use ? panes.offset * noise : sums.d / sums.w;
+  }
+  double residual(double slope) const {
+    const double mean = sums.d / sums.w;
+    const double variance = (sums.dd - sums.d * mean - slope * (sums.sd - sums.s * mean)) / sums.w;
+    return std::sqrt(std::max(0.0, variance)) / kTukeyScatter;
+  }
+};
+
+using Walls = std::vector<Wall>;
+
+// The lines as the layers have them, by id: of each wall its longest edge.
 Walls wallsOf(const std::vector<FloorplanLayer>& layers) {
-  Walls walls;
-  std::map<int, double> longest;
+  std::map<int, detail::WallStretch> longest;
   for (const FloorplanLayer& layer : layers) {
     for (const detail::WallStretch& stretch : detail::stretchesOf(layer.plan)) {
-      if (stretch.wall < 0 || stretch.length <= longest[stretch.wall]) continue;
-      longest[stretch.wall] = stretch.length;
-      Wall wall;
-      wall.reference = stretch.start + 0.5 * stretch.length * stretch.tangent;
-      wall.normal = stretch.normal();
-      walls[stretch.wall] = wall;
+      if (stretch.wall < 0) continue;
+      const auto [known, added] = longest.emplace(stretch.wall, stretch);
+      if (!added && stretch.length > known->second.length) known->second = stretch;
     }
+  }
+  Walls walls;
+  for (const auto& [id, stretch] : longest) {
+    Wall wall;
+    wall.id = id;
+    wall.reference = stretch.start + 0.5 * stretch.length * stretch.tangent;
+    wall.normal = stretch.normal();
+    walls.push_back(wall);
   }
   return walls;
 }
 
-void collectPoints(const std::vector<FloorplanLayer>& layers, const FitPoints& points, double noise,
-                   Walls& walls) {
-  const detail::WallAssignment assignment(layers, noise);
-  for (std::size_t i = 0; i < points.positions.size(); ++i) {
-    const auto wall = walls.find(assignment.wallOf(points.positions[i], points.normals[i]));
-    if (wall == walls.end()) continue;
-    wall->second.collect(points.positions[i].head<2>().cast<double>());
-  }
-}
+// The points, and which wall each is of: its place in `Walls`, or -1.
+struct AssignedPoints {
+  const FitPoints& points;
+  std::vector<int> walls;
+  unsigned int threads;
 
-void findPanes(double noise, Walls& walls) {
+  // Sums over the points of each wall what `work(wall, along, across, sum)` adds.
+  template <typename Sum, typename Work>
+  std::vector<Sum> sum(const Walls& lines, const Work& work) const {
+    return detail::sumByChunks(
+        walls.size(), threads, std::vector<Sum>(lines.size()),
+        [&](std::size_t begin, std::size_t end, std::vector<Sum>& sums) {
+          for (std::size_t i = begin; i < end; ++i) {
+            if (walls[i] < 0) continue;
+            const auto k = static_cast<std::size_t>(walls[i]);
+            const Wall& wall = lines[k];
+            const Eigen::Vector2d r = points.positions[i].head<2>().cast<double>() - wall.reference;
+            work(wall, r.dot(wall.tangent()), r.dot(wall.normal), sums[k]);
+          }
+        });
+  }
+};
+
+struct Residuals {
+  detail::ResidualHistogram histogram;
+  std::size_t points = 0;
+
+  Residuals& operator+=(const Residuals& other) {
+    histogram += other.histogram;
+    points += other.points;
+    return *this;
+  }
+};
+
+void findPanes(const AssignedPoints& points, double noise, Walls& walls) {
+  const std::vector<Residuals> residuals =
+      points.sum<Residuals>(walls, [noise](const Wall&, double, double across, Residuals& sum) {
+        sum.histogram.add(across / noise);
+        ++sum.points;
+      });
   std::vector<Wall*> seen;
   std::vector<detail::ResidualHistogram> histograms;
-  for (auto& [id, wall] : walls) {
-    if (wall.points.size() < kMinSupport) continue;
-    seen.push_back(&wall);
-    histograms.emplace_back();
-    for (const Eigen::Vector2d& point : wall.points) histograms.back().add(point.y() / noise);
+  for (std::size_t k = 0; k < walls.size(); ++k) {
+    if (residuals[k].points < kMinSupport) continue;
+    seen.push_back(&walls[k]);
+    histograms.push_back(residuals[k].histogram);
   }
   const std::vector<detail::WallPanes> all_panes = detail::fitPanes(histograms);
   for (std::size_t k = 0; k < all_panes.size(); ++k) seen[k]->panes = all_panes[k];
 }
 
 // Tukey's weights; where the wall has panes, one step of expectation and maximisation.
-void sumMoments(double noise, Wall& wall) {
-  for (const Eigen::Vector2d& point : wall.points) {
-    if (wall.panes.in_use) {
-      const auto expected = wall.panes.expected(point.y() / noise);
-      wall.add(point.x(), expected.residual * noise, expected.weight);
-      continue;
-    }
-    const double u = point.y() / (kTukey * noise);
-    if (std::abs(u) < 1.0) wall.add(point.x(), point.y(), (1.0 - u * u) * (1.0 - u * u));
-  }
+void sumMoments(const AssignedPoints& points, double noise, Walls& walls) {
+  const std::vector<Moments> sums = points.sum<Moments>(
+      walls, [noise](const Wall& wall, double along, double across, Moments& sum) {
+        if (wall.panes.in_use) {
+          const auto expected = wall.panes.expected(across / noise);
+          sum.add(along, expected.residual * noise, expected.weight);
+          return;
+        }
+        const double u = across / (kTukey * noise);
+        if (std::abs(u) < 1.0) sum.add(along, across, (1.0 - u * u) * (1.0 - u * u));
+      });
+  for (std::size_t k = 0; k < walls.size(); ++k) walls[k].sums = sums[k];
 }
 
 void rotateTo(Wall& wall, double angle) { wall.normal = {std::cos(angle), std::sin(angle)}; }
 
 void setDeviations(const Wall& wall, double noise, double slope, WallFit& fit) {
   if (wall.panes.in_use) {
-    fit.angle_deviation = noise / std::sqrt(wall.panes.information * wall.spread() / wall.w);
+    fit.angle_deviation = noise / std::sqrt(wall.panes.information * wall.spread() / wall.sums.w);
     fit.offset_deviation = noise * wall.panes.offset_deviation;
     return;
   }
   const double deviation = kTukeyDeviation * std::max(wall.residual(slope), 0.1 * noise);
   fit.angle_deviation = deviation / std::sqrt(wall.spread());
-  fit.offset_deviation = deviation / std::sqrt(wall.w);
+  fit.offset_deviation = deviation / std::sqrt(wall.sums.w);
 }
 
 // Solves each wall: d = a + b s, or d = a where the points are too few to tell b.
 std::map<int, WallFit> solve(Walls& walls, double noise) {
   std::map<int, WallFit> fits;
-  for (auto& [id, wall] : walls) {
+  for (Wall& wall : walls) {
+    const Moments& sums = wall.sums;
     WallFit fit;
     fit.normal = wall.normal;
     fit.offset = wall.normal.dot(wall.reference);
     fit.angle_deviation = M_PI;
-    if (wall.support >= kMinSupport && wall.w > 0.0 && wall.spread() > 0.0) {
-      double slope = (wall.sd - wall.s * wall.d / wall.w) / wall.spread();
-      fit.support = wall.support;
+    if (sums.support >= kMinSupport && sums.w > 0.0 && wall.spread() > 0.0) {
+      double slope = (sums.sd - sums.s * sums.d / sums.w) / wall.spread();
+      fit.support = sums.support;
       setDeviations(wall, noise, slope, fit);
       const bool contradicts = std::abs(slope) > kSameDirection * fit.angle_deviation;
       if (fit.angle_deviation > kMaxAngleDeviation && !contradicts) slope = 0.0;
       fit.residual = wall.panes.in_use ? wall.panes.deviation * noise : wall.residual(slope);
       const Eigen::Vector2d centre =
-          wall.reference + (wall.s / wall.w) * wall.tangent() + wall.across(noise) * wall.normal;
+          wall.reference + (sums.s / sums.w) * wall.tangent() + wall.across(noise) * wall.normal;
       fit.normal = (wall.normal - slope * wall.tangent()).normalized();
       fit.offset = fit.normal.dot(centre);
       fit.centre = centre;
       wall.reference = centre;  // the line turns about the centre of its points
       wall.normal = fit.normal;
     }
-    fits[id] = fit;
+    fits[wall.id] = fit;
   }
   return fits;
 }
@@ -161,18 +204,19 @@ void shareDirections(Walls& walls, std::map<int, WallFit>& fits) {
   struct Direction {
     double angle;
     double deviation;
-    int wall;
+    Wall* wall;
   };
   std::vector<Direction> directions;
-  for (const auto& [id, fit] : fits) {
+  for (Wall& wall : walls) {
+    const WallFit& fit = fits.at(wall.id);
     if (fit.support == 0 || fit.angle_deviation > kMaxAngleDeviation) continue;
     double angle = std::atan2(fit.normal.y(), fit.normal.x());
     if (angle < 0.0) angle += M_PI;
-    directions.push_back({angle, fit.angle_deviation, id});
+    directions.push_back({angle, fit.angle_deviation, &wall});
   }
   if (directions.empty()) return;
   std::sort(directions.begin(), directions.end(), [](const Direction& a, const Direction& b) {
-    return a.angle != b.angle ? a.angle < b.angle : a.wall < b.wall;
+    return a.angle != b.angle ? a.angle < b.angle : a.wall->id < b.wall->id;
   });
   const auto agree = [](const Direction& a, const Direction& b, double turn) {
     return turn <= kSameDirection * std::hypot(a.deviation, b.deviation);
@@ -198,15 +242,15 @@ void shareDirections(Walls& walls, std::map<int, WallFit>& fits) {
     std::size_t end = begin;
     for (; end < directions.size(); ++end) {
       Direction group{weight > 0.0 ? sum / weight : 0.0,
-                      weight > 0.0 ? 1.0 / std::sqrt(weight) : 0.0, -1};
+                      weight > 0.0 ? 1.0 / std::sqrt(weight) : 0.0, nullptr};
       if (end > begin && !agree(group, directions[end], directions[end].angle - group.angle)) break;
       const double w = 1.0 / (directions[end].deviation * directions[end].deviation);
       weight += w;
       sum += w * directions[end].angle;
     }
     for (; begin < end; ++begin) {
-      Wall& wall = walls.at(directions[begin].wall);
-      WallFit& fit = fits.at(directions[begin].wall);
+      Wall& wall = *directions[begin].wall;
+      WallFit& fit = fits.at(wall.id);
       const bool opposite =
           fit.normal.dot(Eigen::Vector2d(std::cos(sum / weight), std::sin(sum / weight))) < 0.0;
       rotateTo(wall, sum / weight + (opposite ? M_PI : 0.0));
@@ -233,10 +277,13 @@ std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPo
   std::map<int, WallFit> fits;
   for (int round = 0; round < kRounds; ++round) {
     Walls walls = wallsOf(layers);
-    collectPoints(layers, points, options.noise, walls);
-    if (options.find_panes && round > 0)
-      findPanes(options.noise, walls);  // about lines that are nearly right
-    for (auto& [id, wall] : walls) sumMoments(options.noise, wall);
+    const AssignedPoints assigned{
+        points, detail::WallAssignment(layers, options.noise).wallsOf(points, options.threads),
+        options.threads};
+    if (options.find_panes && round > 0) {
+      findPanes(assigned, options.noise, walls);  // about lines that are nearly right
+    }
+    sumMoments(assigned, options.noise, walls);
     fits = solve(walls, options.noise);
     if (options.share_directions) shareDirections(walls, fits);
     detail::moveCorners(layers, fits);

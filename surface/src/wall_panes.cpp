@@ -66,31 +66,70 @@ struct Expectation {
   }
 };
 
+constexpr auto kSeenBins = static_cast<std::ptrdiff_t>(Counts::kBins);
+constexpr std::ptrdiff_t kAllBins = kSeenBins + 2 * kBeyond;
+
+// exp(-((u - mean) / deviation)^2 / 2) in the middles of all bins. From one bin to the next the
+// exponential changes by a ratio, and that by a constant one: so it takes few calls of exp.
+class Bell {
+ public:
+  Bell(double mean, double deviation) {
+    const double step = Counts::kWidth / deviation;
+    const std::ptrdiff_t first =
+        std::clamp(static_cast<std::ptrdiff_t>((mean + Counts::kGate) / Counts::kWidth) + kBeyond,
+                   std::ptrdiff_t{0}, kAllBins - 1);
+    const double off = (Counts::middleOf(first - kBeyond) - mean) / deviation;
+    const double middle = std::exp(-0.5 * off * off);
+    const double bend = std::exp(-step * step);
+    double ratio = std::exp(-step * (off + 0.5 * step));
+    double value = middle;
+    for (std::ptrdiff_t b = first; b < kAllBins; ++b, ratio *= bend) {
+      values_[static_cast<std::size_t>(b)] = value;
+      value *= ratio;
+    }
+    ratio = std::exp(step * (off - 0.5 * step));
+    value = middle;
+    for (std::ptrdiff_t b = first; b-- > 0; ratio *= bend) {
+      value *= ratio;
+      values_[static_cast<std::size_t>(b)] = value;
+    }
+  }
+
+  double operator[](std::ptrdiff_t bin) const {  // from -kBeyond on
+    return values_[static_cast<std::size_t>(bin + kBeyond)];
+  }
+
+ private:
+  std::array<double, static_cast<std::size_t>(kAllBins)> values_;
+};
+
 Expectation expect(const Counts& histogram, const WallPanes& panes) {
+  const double height = (1.0 - panes.background) * kInvSqrt2Pi / panes.deviation;
+  const Bell of_wall(panes.offset, panes.deviation);
+  const Bell of_pane(panes.offset - panes.depth, panes.deviation);
+  const double background = panes.background / (2.0 * Counts::kGate);
   Expectation sum;
   double seen = 0.0;
-  constexpr auto kBins = static_cast<std::ptrdiff_t>(Counts::kBins);
-  for (std::ptrdiff_t b = 0; b < kBins; ++b) {
+  for (std::ptrdiff_t b = 0; b < kSeenBins; ++b) {
     const double count = histogram.counts()[static_cast<std::size_t>(b)];
-    const double u = Counts::middleOf(b);
-    const Parts parts = partsAt(panes, u);
+    const Parts parts{height * (1.0 - panes.share) * of_wall[b], height * panes.share * of_pane[b],
+                      background};
     seen += parts.sum() * Counts::kWidth;
     if (count == 0.0) continue;
-    sum.add(parts, u, count);
+    sum.add(parts, Counts::middleOf(b), count);
     sum.likelihood += count * std::log(parts.sum());
   }
   sum.likelihood -= histogram.total() * std::log(seen);
   // Points beyond the gate are as many as the model says.
   const auto addUnseen = [&](std::ptrdiff_t b) {
-    const double u = Counts::middleOf(b);
-    Parts parts = partsAt(panes, u);
-    parts.background = 0.0;
+    const Parts parts{height * (1.0 - panes.share) * of_wall[b], height * panes.share * of_pane[b],
+                      0.0};
     if (parts.sum() < kLeast) return;
-    sum.add(parts, u, histogram.total() * parts.sum() * Counts::kWidth / seen);
+    sum.add(parts, Counts::middleOf(b), histogram.total() * parts.sum() * Counts::kWidth / seen);
   };
   for (std::ptrdiff_t b = 1; b <= kBeyond; ++b) {
     addUnseen(-b);
-    addUnseen(kBins - 1 + b);
+    addUnseen(kSeenBins - 1 + b);
   }
   return sum;
 }
@@ -202,6 +241,12 @@ void ResidualHistogram::add(double residual) {
   const auto bin = static_cast<std::size_t>((residual + kGate) / kWidth);
   counts_[std::min(bin, kBins - 1)] += 1.0;
   total_ += 1.0;
+}
+
+ResidualHistogram& ResidualHistogram::operator+=(const ResidualHistogram& other) {
+  for (std::size_t b = 0; b < kBins; ++b) counts_[b] += other.counts_[b];
+  total_ += other.total_;
+  return *this;
 }
 
 WallPanes::Expected WallPanes::expected(double residual) const {

@@ -46,11 +46,11 @@ TEST(LevelColumns, GroundIsWhatLiesAtTheFeetOfWalls) {
   std::vector<LevelPoint> points;
   addLevel(points, -8.0, -1.0, 0.0, true);  // beside a house of 10 x 10
   addLevel(points, 0.0, 10.0, 12.0, true);
-  std::vector<WallPoint> walls;
-  for (double s = 0.05; s < 10.0; s += 0.1) {
-    for (double z = 0.05; z < 12.0; z += 0.1) {
-      walls.push_back({{s, 0.0}, z, {0.0, -1.0}});
-      walls.push_back({{0.0, s}, z, {-1.0, 0.0}});
+  std::vector<Eigen::Vector3f> walls;
+  for (float s = 0.05f; s < 10.0f; s += 0.1f) {
+    for (float z = 0.05f; z < 12.0f; z += 0.1f) {
+      walls.emplace_back(s, 0.0f, z);
+      walls.emplace_back(0.0f, s, z);
     }
   }
   LevelColumns columns = gatherLevelColumns(points, kScale);

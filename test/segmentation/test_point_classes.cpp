@@ -18,7 +18,8 @@ void addFace(std::vector<OrientedPoint>& points, const Eigen::Vector3d& corner,
   const Eigen::Vector3d normal = a.cross(b).normalized();
   for (double s = 0.05; s < a.norm(); s += 0.1) {
     for (double t = 0.05; t < b.norm(); t += 0.1) {
-      points.push_back({corner + s * a.normalized() + t * b.normalized(), normal});
+      const Eigen::Vector3d place = corner + s * a.normalized() + t * b.normalized();
+      points.push_back({place.cast<float>(), normal.cast<float>()});
     }
   }
 }
@@ -41,7 +42,7 @@ TEST(PointClasses, WallsThatLeanAreSloped) {
   addFace(points, {0, 0, 8}, {8, 0, 0}, {0, 1.6, 7.8});  // 11.6 degrees
   const std::vector<PointClass> classes = classesOf(points);
   for (std::size_t i = 0; i < upright; ++i) {  // the cubes at the edge of both are mixed
-    if (points[i].position.z() > 7.0) continue;
+    if (points[i].position.z() > 7.0f) continue;
     EXPECT_EQ(classes[i], PointClass::Wall);
   }
   // All but the mixed cubes, and those at the rim with too few points to tell.

@@ -77,6 +77,9 @@ class BuildingFloorplanExtraction : public pcl::PCLBase<PointT> {
   void setWholeTradeOff(bool whole) { limits_.whole_front = whole; }
   bool getWholeTradeOff() const { return limits_.whole_front; }
 
+  /// 0 (default): all cores. The result is the same for any number.
+  void setNumberOfThreads(unsigned int threads = 0) { threads_ = threads; }
+
   /// Steps to do without, for experiments; default: none.
   void setSteps(const detail::MethodSteps& steps) { steps_ = steps; }
 
@@ -96,6 +99,7 @@ class BuildingFloorplanExtraction : public pcl::PCLBase<PointT> {
   double min_wall_area_ = 0.0;
   double block_cost_ = 0.0;
   detail::SimplicityLimits limits_;
+  unsigned int threads_ = 0;
   detail::MethodSteps steps_;
   detail::BuildingFloorplans result_;
 };

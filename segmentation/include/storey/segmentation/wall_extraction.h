@@ -48,6 +48,9 @@ class WallExtraction : public pcl::PCLBase<PointT> {
   void setMinWallArea(double square_length) { parameters_.min_wall_area = square_length; }
   double getMinWallArea() const { return parameters_.min_wall_area; }
 
+  /// 0 (default): all cores. The result is the same for any number.
+  void setNumberOfThreads(unsigned int threads = 0) { threads_ = threads; }
+
   /// \param walls points of each wall, ascending and disjoint, with the header of the input; the
   /// wall with most points first. Empty for no input, a bad parameter or an index outside the
   /// cloud, each after a PCL_ERROR, and where there are no walls.
@@ -64,6 +67,7 @@ class WallExtraction : public pcl::PCLBase<PointT> {
   bool parametersValid() const;
 
   detail::WallParameters parameters_;
+  unsigned int threads_ = 0;
   std::vector<detail::WallLine> lines_;
 };
 

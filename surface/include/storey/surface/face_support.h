@@ -19,8 +19,10 @@ namespace storey {
 /// cells are covered. The density is that of the face which the point in the middle lies on.
 /// \param noise standard deviation of the points about their walls, > 0; else, after a PCL_ERROR,
 ///        nothing changes
+/// \param threads 0: all cores; the result is the same for any number
 /// \par Complexity O(n) in the points, times the faces near each.
-void measureSupport(const FitPoints& points, double noise, PolyhedralModel& model);
+void measureSupport(const FitPoints& points, double noise, PolyhedralModel& model,
+                    unsigned int threads = 0);
 
 /// Sets `PolyhedralFace::deviation` of every face and `PolyhedralModel::covariances` of every
 /// vertex from those of the fits. A vertex is the crossing of the two of its walls that meet at the

@@ -49,6 +49,7 @@ struct FitOptions {
   double max_shift = 0.0;        ///< a height moves by no more than this in one fit, > 0
   bool share_directions = true;  ///< walls whose directions agree within 3.5 deviations share one
   bool find_panes = true;        ///< windows set back are a mode of their own, where they are found
+  unsigned int threads = 0;      ///< 0: all cores; the result is the same for any number
 };
 
 /// Fits every wall to all the points of all the layers that use it (the decoded shape of a type is
@@ -83,6 +84,6 @@ std::vector<HeightFit> fitHeights(std::vector<FloorplanLayer>& layers, const Fit
 /// \return the rotation about the middle of the points that sets them upright; the identity where
 /// the lean is below four standard deviations
 Eigen::Isometry3d fitUpright(const std::vector<FloorplanLayer>& layers, const FitPoints& points,
-                             double noise);
+                             double noise, unsigned int threads = 0);
 
 }  // namespace storey

@@ -18,6 +18,7 @@ struct LayerwiseModelOptions {
   double slice_thickness = 0.0;  ///< > 0; heights are sought within 1.5 slices of a boundary
   double grid = 0.0;             ///< see extrudeFloorplans
   detail::MethodSteps steps;     ///< of the fits, for experiments
+  unsigned int threads = 0;      ///< 0: all cores; the result is the same for any number
 };
 
 struct LayerwiseModel {
@@ -34,12 +35,12 @@ struct LayerwiseModel {
 /// The second room of the house: floorplans of slices to a checked solid. Dominant floorplans are
 /// chosen (11)-(15), their walls and heights fitted to all points, and extruded.
 /// \return an empty model if no slice has a floorplan
-LayerwiseModel buildLayerwiseModel(const std::vector<FloorplanLayer>& slices,
-                                   const FitPoints& points, const LayerwiseModelOptions& options);
+LayerwiseModel buildLayerwiseModel(const std::vector<FloorplanLayer>& slices, FitPoints points,
+                                   const LayerwiseModelOptions& options);
 
 /// The same from blocks whose floorplans are chosen already (edges carry wall ids, as from
 /// `BuildingFloorplanExtraction`): fit, extrusion and checks. Equal outlines are one type.
-LayerwiseModel buildModelOfBlocks(const std::vector<FloorplanLayer>& blocks,
-                                  const FitPoints& points, const LayerwiseModelOptions& options);
+LayerwiseModel buildModelOfBlocks(const std::vector<FloorplanLayer>& blocks, FitPoints points,
+                                  const LayerwiseModelOptions& options);
 
 }  // namespace storey

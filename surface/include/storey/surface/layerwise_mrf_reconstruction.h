@@ -84,6 +84,9 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
   void setGrid(double grid) { grid_ = grid; }
   double getGrid() const { return grid_; }
 
+  /// 0 (default): all cores. The result is the same for any number.
+  void setNumberOfThreads(unsigned int threads = 0) { threads_ = threads; }
+
   /// Steps of the fits to do without, for experiments; default: none.
   void setSteps(const detail::MethodSteps& steps) { steps_ = steps; }
 
@@ -111,6 +114,7 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
   DominantFloorplanOptions options_;
   double noise_ = 0.0;
   double grid_ = 0.0;
+  unsigned int threads_ = 0;
   detail::MethodSteps steps_;
   LayerwiseModel result_;
 };

@@ -4,7 +4,7 @@
 #include <storey/segmentation/detail/cell_labels.h>
 #include <storey/segmentation/detail/method_steps.h>
 #include <storey/segmentation/detail/outline_trade_off.h>
-#include <storey/segmentation/detail/wall_points.h>
+#include <storey/segmentation/detail/wall_input.h>
 #include <storey/segmentation/floorplan.h>
 
 #include <utility>
@@ -18,6 +18,7 @@ struct BuildingFloorplanOptions {
   double min_area = 0.0;       ///< of a component or courtyard
   SimplicityLimits limits;
   MethodSteps steps = {};
+  unsigned int threads = 0;      ///< 0: all cores; the result is the same for any number
   double keep_components = 0.1;  ///< components with less of the best supported one's support go
 };
 
@@ -34,11 +35,9 @@ struct BuildingFloorplans {
 };
 
 /// The floorplans of a building from the walls of all of it at once (see
-/// `BuildingFloorplanExtraction`). \param points of walls; at most 250,000 of them, evenly
-/// drawn, vote for lines, all of them count as evidence
-BuildingFloorplans extractBuildingFloorplans(const std::vector<WallPoint>& points,
-                                             const std::vector<LevelPoint>& level_points,
-                                             const WallScale& scale,
+/// `BuildingFloorplanExtraction`). The sample of the points of walls votes for lines, all of them
+/// count as evidence.
+BuildingFloorplans extractBuildingFloorplans(const WallInput& input,
                                              const BuildingFloorplanOptions& options);
 
 }  // namespace storey::detail

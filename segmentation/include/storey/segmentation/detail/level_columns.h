@@ -37,6 +37,8 @@ LevelColumns gatherLevelColumns(const std::vector<LevelPoint>& points, const Wal
 /// Marks the ground: surfaces of faces up (squares side by side without a step) that lie, with most
 /// of their squares, as low as what is lowest around them: the feet of walls and other faces within
 /// a quarter of the extent, with slopes up to 0.1.
-void markGround(const std::vector<WallPoint>& walls, const WallScale& scale, LevelColumns& columns);
+/// \param walls points of walls
+void markGround(const std::vector<Eigen::Vector3f>& walls, const WallScale& scale,
+                LevelColumns& columns);
 
 }  // namespace storey::detail

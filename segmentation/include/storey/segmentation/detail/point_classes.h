@@ -23,8 +23,8 @@ constexpr int kNumPointClasses = 6;
 constexpr double kUprightNormalZ = 0.3;
 
 struct OrientedPoint {
-  Eigen::Vector3d position;
-  Eigen::Vector3d normal;  ///< unit; +z is up
+  Eigen::Vector3f position;
+  Eigen::Vector3f normal;  ///< unit; +z is up
 };
 
 /// Sorts points into classes from the points alone: no model takes part.

@@ -5,8 +5,11 @@
 #include <pcl/point_cloud.h>
 #include <storey/filters/cloud_scale.h>
 #include <storey/segmentation/detail/cell_energy.h>
+#include <storey/segmentation/detail/place_order.h>
+#include <storey/segmentation/detail/wall_lines.h>
 #include <storey/segmentation/detail/wall_points.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -26,22 +29,64 @@ struct WallParameters {
   double min_wall_area = 0.0;
 };
 
-/// A cloud as the search for walls sees it.
+/// A cloud as the search for walls sees it. Points of walls come in the order of their places.
 struct WallInput {
   std::vector<WallPoint> walls;
-  pcl::Indices wall_indices;  ///< of `walls` in the cloud
+  pcl::Indices wall_indices;      ///< of `walls` in the cloud
+  std::vector<WallPoint> sample;  ///< at most 250,000 of `walls`, evenly drawn: to find lines with
   std::vector<LevelPoint> levels;
   WallScale scale;
   double min_wall_area = 0.0;
 };
 
-/// Diagonal of the box around the wall points.
-double extentOf(const std::vector<WallPoint>& points);
+/// What a point is of, by its normal. `Neither` also where it or the position is not finite.
+enum class Attitude { Upright, Level, Neither };
+
+template <typename PointT>
+Attitude attitudeOf(const PointT& p) {
+  if (!pcl::isXYZFinite(p) || !pcl::isNormalFinite(p)) return Attitude::Neither;
+  const Eigen::Vector3d n(p.normal_x, p.normal_y, p.normal_z);
+  const double length = n.norm();
+  if (!(length > 0.0)) return Attitude::Neither;
+  const double nz = std::abs(n.z() / length);
+  return nz < kWallMaxNormalZ    ? Attitude::Upright
+         : nz > kLevelMinNormalZ ? Attitude::Level
+                                 : Attitude::Neither;
+}
+
+/// The least area of a wall, derived from a cloud with these points of walls.
+template <typename PointT>
+double leastWallArea(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& of_walls,
+                     double noise) {
+  Eigen::AlignedBox3f box;
+  for (const pcl::index_t i : of_walls) {
+    const PointT& p = cloud[static_cast<std::size_t>(i)];
+    box.extend(Eigen::Vector3f(p.x, p.y, p.z));
+  }
+  const double extent =
+      box.isEmpty()
+          ? 0.0
+          : (box.max().template cast<double>() - box.min().template cast<double>()).norm();
+  return std::max(std::pow(kMinWallSideInNoise * noise, 2),
+                  std::pow(kMinWallSideInExtent * extent, 2));
+}
+
+template <typename PointT>
+std::vector<WallPoint> toWallPoints(const pcl::PointCloud<PointT>& cloud,
+                                    const pcl::Indices& indices) {
+  std::vector<WallPoint> points;
+  points.reserve(indices.size());
+  for (const pcl::index_t i : indices) {
+    const PointT& p = cloud[static_cast<std::size_t>(i)];
+    points.push_back({{p.x, p.y}, p.z, Eigen::Vector2d(p.normal_x, p.normal_y).normalized()});
+  }
+  return points;
+}
 
 /// Sorts the points by their normals; those with a non-finite position or normal are left out.
 template <typename PointT>
 WallInput gatherWallInput(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
-                          const WallParameters& parameters) {
+                          const WallParameters& parameters, unsigned int threads) {
   WallInput input;
   input.scale = {parameters.noise, parameters.density};
   if (!(parameters.noise > 0.0) || !(parameters.density > 0.0)) {
@@ -52,24 +97,19 @@ WallInput gatherWallInput(const pcl::PointCloud<PointT>& cloud, const pcl::Indic
     if (!(parameters.density > 0.0)) input.scale.density = measured.density;
   }
   if (!(input.scale.noise > 0.0) || !(input.scale.density > 0.0)) return input;
+  pcl::Indices of_walls;
   for (const pcl::index_t i : indices) {
     const PointT& p = cloud[static_cast<std::size_t>(i)];
-    if (!pcl::isXYZFinite(p) || !pcl::isNormalFinite(p)) continue;
-    const Eigen::Vector3d n(p.normal_x, p.normal_y, p.normal_z);
-    if (!(n.norm() > 0.0)) continue;
-    const double nz = n.z() / n.norm();
-    if (std::abs(nz) < kWallMaxNormalZ) {
-      input.walls.push_back({{p.x, p.y}, p.z, n.head<2>().normalized()});
-      input.wall_indices.push_back(i);
-    } else if (std::abs(nz) > kLevelMinNormalZ) {
-      input.levels.push_back({{p.x, p.y}, p.z, nz > 0.0});
-    }
+    const Attitude attitude = attitudeOf(p);
+    if (attitude == Attitude::Upright) of_walls.push_back(i);
+    if (attitude == Attitude::Level) input.levels.push_back({{p.x, p.y}, p.z, p.normal_z > 0.0f});
   }
-  input.min_wall_area = parameters.min_wall_area;
-  if (!(input.min_wall_area > 0.0)) {
-    input.min_wall_area = std::max(std::pow(kMinWallSideInNoise * input.scale.noise, 2),
-                                   std::pow(kMinWallSideInExtent * extentOf(input.walls), 2));
-  }
+  input.min_wall_area = parameters.min_wall_area > 0.0
+                            ? parameters.min_wall_area
+                            : leastWallArea(cloud, of_walls, input.scale.noise);
+  input.sample = toWallPoints(cloud, orderByPlace(cloud, drawEvenly(of_walls), threads));
+  input.wall_indices = orderByPlace(cloud, of_walls, threads);
+  input.walls = toWallPoints(cloud, input.wall_indices);
   return input;
 }
 

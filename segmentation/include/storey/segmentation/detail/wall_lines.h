@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl/types.h>
 #include <storey/segmentation/detail/method_steps.h>
 #include <storey/segmentation/detail/wall_points.h>
 
@@ -11,10 +12,11 @@ namespace storey::detail {
 struct WallLineOptions {
   double min_area = 0.0;  ///< least supported area of a wall
   MethodSteps steps = {};
+  unsigned int threads = 0;  ///< 0: all cores; the result is the same for any number
 };
 
 /// At most 250,000 of the points, evenly drawn: enough to find lines with.
-std::vector<WallPoint> drawEvenly(const std::vector<WallPoint>& points);
+pcl::Indices drawEvenly(const pcl::Indices& points);
 
 /// Finds the wall lines of a whole building: an oriented Hough vote over all heights at once.
 /// 1. Free pass: a point votes for all lines within `kVoteAngle` of its own, unsmoothed normal; the

@@ -42,15 +42,16 @@ bool BuildingFloorplanExtraction<PointT>::extract(std::vector<FloorplanLayer>& b
     this->deinitCompute();
     return false;
   }
-  const detail::WallInput input =
-      detail::gatherWallInput(*this->input_, *this->indices_, {noise_, density_, min_wall_area_});
+  const detail::WallInput input = detail::gatherWallInput(
+      *this->input_, *this->indices_, {noise_, density_, min_wall_area_}, threads_);
   detail::BuildingFloorplanOptions options;
   options.min_wall_area = input.min_wall_area;
   options.block_cost = block_cost_;
   options.limits = limits_;
   options.steps = steps_;
+  options.threads = threads_;
   options.min_area = std::pow(detail::kMinComponentSideInNoise * input.scale.noise, 2);
-  result_ = detail::extractBuildingFloorplans(input.walls, input.levels, input.scale, options);
+  result_ = detail::extractBuildingFloorplans(input, options);
   blocks = result_.layers;
   this->deinitCompute();
   return !blocks.empty();

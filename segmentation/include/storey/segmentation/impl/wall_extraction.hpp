@@ -40,13 +40,13 @@ void WallExtraction<PointT>::extract(std::vector<pcl::PointIndices>& walls) {
     return;
   }
   const detail::WallInput input =
-      detail::gatherWallInput(*this->input_, *this->indices_, parameters_);
-  const std::vector<detail::WallPoint> sample = detail::drawEvenly(input.walls);
+      detail::gatherWallInput(*this->input_, *this->indices_, parameters_, threads_);
   std::vector<detail::WallLine> lines;
-  if (!sample.empty()) {
+  if (!input.sample.empty()) {
     detail::WallScale scale = input.scale;
-    scale.density *= static_cast<double>(sample.size()) / static_cast<double>(input.walls.size());
-    lines = detail::findWallLines(sample, scale, {input.min_wall_area});
+    scale.density *=
+        static_cast<double>(input.sample.size()) / static_cast<double>(input.walls.size());
+    lines = detail::findWallLines(input.sample, scale, {input.min_wall_area, {}, threads_});
   }
   std::vector<pcl::PointIndices> found(lines.size());
   const std::vector<int> wall_of = detail::assignToWalls(input.walls, lines, input.scale);

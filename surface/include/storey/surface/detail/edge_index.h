@@ -34,19 +34,30 @@ class EdgeIndex {
  public:
   EdgeIndex(std::vector<WallStretch> stretches, double gate);
 
+  /// Numbers of stretches, as a part of the index.
+  struct Candidates {
+    const int* first = nullptr;
+    const int* last = nullptr;
+    const int* begin() const { return first; }
+    const int* end() const { return last; }
+  };
+
   /// The stretch nearest to the point across, at most `gate` away, with the point at least
   /// `margin` (or a quarter of the stretch, if that is less) inside its ends and a normal that
   /// does not contradict; -1 if there is none. \param normal may be zero: unknown
   int nearest(const Eigen::Vector2d& point, const Eigen::Vector2d& normal, double margin) const;
 
   /// All stretches that may be within the gate of the point, and others; ascending.
-  const std::vector<int>& candidates(const Eigen::Vector2d& point) const;
+  Candidates candidates(const Eigen::Vector2d& point) const;
 
   const WallStretch& operator[](std::size_t i) const { return stretches_[i]; }
   std::size_t size() const { return stretches_.size(); }
 
  private:
-  std::size_t cellOf(const Eigen::Vector2d& point) const;
+  void layGrid();
+  // Calls `work(cell)` for all cells that the stretch may be within the gate of.
+  template <typename Work>
+  void forEachCellNear(const WallStretch& stretch, const Work& work) const;
 
   std::vector<WallStretch> stretches_;
   double gate_ = 0.0;
@@ -54,7 +65,8 @@ class EdgeIndex {
   Eigen::Vector2d low_;
   std::ptrdiff_t columns_ = 0;
   std::ptrdiff_t rows_ = 0;
-  std::vector<std::vector<int>> cells_;
+  std::vector<std::size_t> first_;  // of the candidates of each cell, in `candidates_`
+  std::vector<int> candidates_;
 };
 
 }  // namespace storey::detail

@@ -19,6 +19,15 @@ struct LevelEvidence {
   std::array<std::vector<double>, 2> ends;
   std::array<std::vector<double>, 2> starts;
   std::vector<double> caps;  ///< points of the level faces: roofs, grounds, ceilings
+
+  std::array<std::vector<double>*, 5> lists() {
+    return {&ends[0], &ends[1], &starts[0], &starts[1], &caps};
+  }
+  std::array<const std::vector<double>*, 5> lists() const {
+    return {&ends[0], &ends[1], &starts[0], &starts[1], &caps};
+  }
+  LevelEvidence& operator+=(
+      const LevelEvidence& other);  ///< the points of the same level, unsorted
 };
 
 /// The evidence of all levels in one pass over the points: level k is the foot of layer k, the last

@@ -3,6 +3,7 @@
 
 #include <storey/segmentation/floorplan.h>
 #include <storey/surface/detail/edge_index.h>
+#include <storey/surface/floorplan_fitting.h>
 
 #include <Eigen/Core>
 #include <vector>
@@ -15,13 +16,20 @@ class WallAssignment {
  public:
   WallAssignment(const std::vector<FloorplanLayer>& layers, double noise);
 
-  /// The wall's id; -1 if the point is of none, or of one without an id.
-  int wallOf(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const;
+  /// Ids of the walls that have one, ascending.
+  const std::vector<int>& ids() const { return ids_; }
+
+  /// The wall of each point, as its place in `ids`; -1 if the point is of none, or of one without
+  /// an id.
+  std::vector<int> wallsOf(const FitPoints& points, unsigned int threads) const;
 
  private:
+  int wallOf(const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const;
+
   const std::vector<FloorplanLayer>& layers_;
   double margin_ = 0.0;
-  std::vector<EdgeIndex> indices_;  // by layer
+  std::vector<int> ids_;
+  std::vector<EdgeIndex> indices_;  // by layer; walls as their places in `ids_`
 };
 
 }  // namespace storey::detail

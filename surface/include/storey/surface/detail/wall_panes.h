@@ -16,6 +16,7 @@ class ResidualHistogram {
   static constexpr std::size_t kBins = 40;
 
   void add(double residual);
+  ResidualHistogram& operator+=(const ResidualHistogram& other);
 
   const std::array<double, kBins>& counts() const { return counts_; }
   double total() const { return total_; }

@@ -8,10 +8,12 @@
 #include <storey/filters/detail/indices.h>
 #include <storey/segmentation/building_floorplan_extraction.h>
 #include <storey/segmentation/detail/indexed_scale.h>
+#include <storey/segmentation/detail/place_order.h>
 #include <storey/surface/mesh_export.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 // The base class searches: without these a point type unknown to PCL does not link.
 #include <pcl/kdtree/impl/kdtree_flann.hpp>
 #include <pcl/search/impl/kdtree.hpp>
@@ -40,15 +42,17 @@ inline bool layersAscend(const std::vector<FloorplanLayer>& layers) {
   return true;
 }
 
-/// The finite points with their normals; a normal that is not finite becomes zero (unknown).
+/// The finite points with their normals, neighbours near each other; a normal that is not finite
+/// becomes zero (unknown).
 template <typename PointT>
-FitPoints toFitPoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices) {
+FitPoints toFitPoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
+                      unsigned int threads) {
+  const pcl::Indices order = orderByPlace(cloud, indices, threads);
   FitPoints points;
-  points.positions.reserve(indices.size());
-  points.normals.reserve(indices.size());
-  for (const pcl::index_t i : indices) {
+  points.positions.reserve(order.size());
+  points.normals.reserve(order.size());
+  for (const pcl::index_t i : order) {
     const PointT& p = cloud[static_cast<std::size_t>(i)];
-    if (!pcl::isXYZFinite(p)) continue;
     points.positions.emplace_back(p.x, p.y, p.z);
     const bool known = pcl::isNormalFinite(p);
     points.normals.push_back(known ? Eigen::Vector3f(p.normal_x, p.normal_y, p.normal_z)
@@ -93,10 +97,11 @@ bool LayerwiseMRFReconstruction<PointT>::build() {
   options.dominant.length_tolerance = detail::kLetterToleranceInNoise * options.noise;
   options.grid = grid_;
   options.steps = steps_;
-  const FitPoints points = detail::toFitPoints(*this->input_, *this->indices_);
+  options.threads = threads_;
+  FitPoints points = detail::toFitPoints(*this->input_, *this->indices_, threads_);
   if (!floorplans_.empty()) {
     options.slice_thickness = floorplans_.front().z_max - floorplans_.front().z_min;
-    result_ = buildLayerwiseModel(floorplans_, points, options);
+    result_ = buildLayerwiseModel(floorplans_, std::move(points), options);
   } else {
     std::vector<FloorplanLayer> blocks = blocks_;
     if (blocks.empty()) {
@@ -104,13 +109,14 @@ bool LayerwiseMRFReconstruction<PointT>::build() {
       extraction.setInputCloud(this->input_);
       extraction.setIndices(this->indices_);
       extraction.setNoise(noise_);
+      extraction.setNumberOfThreads(threads_);
       extraction.extract(blocks);
     }
     if (!blocks.empty()) {
       const double height = blocks.back().z_max - blocks.front().z_min;
       options.slice_thickness = std::max(detail::kLevelErrorInNoise * options.noise,
                                          detail::kLevelErrorInHeight * height);
-      result_ = buildModelOfBlocks(blocks, points, options);
+      result_ = buildModelOfBlocks(blocks, std::move(points), options);
     }
   }
   this->deinitCompute();

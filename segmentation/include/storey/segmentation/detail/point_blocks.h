@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <storey/segmentation/detail/wall_points.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace storey::detail {
+
+/// Runs of consecutive points, with a circle around each in plan. Of points in the order of their
+/// places (`orderByPlace`) most blocks are nowhere near a line, which one look at the circle tells.
+class PointBlocks {
+ public:
+  explicit PointBlocks(const std::vector<WallPoint>& points);
+
+  std::size_t size() const { return circles_.size(); }
+  std::size_t begin(std::size_t block) const { return block * kLength; }
+  std::size_t end(std::size_t block) const {
+    return begin(block) + kLength < num_points_ ? begin(block) + kLength : num_points_;
+  }
+
+  /// Whether a point of the block may be within `reach` of the line normal . x = offset.
+  bool mayBeNear(std::size_t block, const Eigen::Vector2d& normal, double offset,
+                 double reach) const {
+    const Circle& circle = circles_[block];
+    const double off = normal.dot(circle.center) - offset;
+    return off < reach + circle.radius && off > -reach - circle.radius;
+  }
+
+ private:
+  static constexpr std::size_t kLength = 64;
+
+  struct Circle {
+    Eigen::Vector2d center;
+    double radius;
+  };
+
+  std::size_t num_points_;
+  std::vector<Circle> circles_;
+};
+
+}  // namespace storey::detail

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <storey/segmentation/detail/wall_points.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace storey::detail {
+
+/// Votes of points over (direction, bin of the offset) for the lines that they may be of. Rows may
+/// have any set of directions.
+class VoteTable {
+ public:
+  struct Peak {
+    std::size_t angle = 0;
+    int bin = 0;
+    int votes = 0;
+  };
+
+  /// \param angles of the rows' normals, rad \param bin width \param window bins that are summed
+  /// \param threads 0: all cores; the result is the same for any number
+  VoteTable(const std::vector<WallPoint>& points, std::vector<double> angles, double bin,
+            int window, unsigned int threads);
+
+  /// Adds `amount` for each of the points of these numbers, in all rows within `kVoteAngle` of its
+  /// normal.
+  void vote(const std::vector<int>& numbers, int amount);
+
+  /// The window with most votes. What was struck out does not count.
+  Peak strongest();
+  void strikeOut(const Peak& peak);
+
+  /// A line at the mean offset of the window's votes, not at its middle.
+  WallLine lineAt(const Peak& peak) const;
+
+ private:
+  int binOf(double offset) const;
+  Peak strongestOf(std::size_t angle) const;
+  bool struckOut(std::size_t angle, int bin) const;
+
+  const std::vector<WallPoint>& points_;
+  std::vector<double> angles_;
+  std::vector<Eigen::Vector2d> normals_;
+  double bin_;
+  int window_;
+  unsigned int threads_;
+  double low_ = 0.0;
+  int bins_ = 0;
+  std::vector<int> votes_;
+  std::vector<Peak> peaks_;    // of each angle
+  std::vector<char> changed_;  // angles whose peak is to be found again
+  std::vector<Peak> struck_;
+};
+
+}  // namespace storey::detail

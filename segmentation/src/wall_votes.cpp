@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/threads.h>
+#include <storey/segmentation/detail/wall_votes.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace storey::detail {
+namespace {
+
+constexpr int kDegrees = 360;
+constexpr std::size_t kFew = 2000;  // points that are not worth a second thread
+
+int degreeOf(double angle) {
+  const int degree = static_cast<int>(std::floor(angle * kDegrees / (2.0 * M_PI))) % kDegrees;
+  return degree < 0 ? degree + kDegrees : degree;
+}
+
+// Points by the direction of their normals, whole degree by degree: those that vote for a row are
+// together.
+struct Ballots {
+  std::vector<WallPoint> points;
+  std::vector<std::size_t> first;  // of each degree
+
+  Ballots(const std::vector<WallPoint>& all, const std::vector<int>& numbers)
+      : points(numbers.size()), first(kDegrees + 1, 0) {
+    std::vector<int> degrees;
+    degrees.reserve(numbers.size());
+    for (const int i : numbers) {
+      const Eigen::Vector2d& normal = all[static_cast<std::size_t>(i)].normal;
+      degrees.push_back(degreeOf(std::atan2(normal.y(), normal.x())));
+      ++first[static_cast<std::size_t>(degrees.back()) + 1];
+    }
+    for (std::size_t d = 0; d < kDegrees; ++d) first[d + 1] += first[d];
+    std::vector<std::size_t> next = first;
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      points[next[static_cast<std::size_t>(degrees[k])]++] =
+          all[static_cast<std::size_t>(numbers[k])];
+    }
+  }
+
+  // Calls `work(from, to, sure)` for the ranges of points that may be within the angle of a row;
+  // `sure`: all of them are.
+  template <typename Work>
+  void forEachRange(double row, const Work& work) const {
+    constexpr int kReach = static_cast<int>(kVoteAngle * kDegrees / (2.0 * M_PI) + 0.5);
+    for (int d = -kReach - 1; d <= kReach; ++d) {
+      const auto degree = static_cast<std::size_t>((degreeOf(row) + d + kDegrees) % kDegrees);
+      if (first[degree] == first[degree + 1]) continue;
+      work(first[degree], first[degree + 1], std::abs(d) < kReach - 1);
+    }
+  }
+};
+
+}  // namespace
+
+VoteTable::VoteTable(const std::vector<WallPoint>& points, std::vector<double> angles, double bin,
+                     int window, unsigned int threads)
+    : points_(points), angles_(std::move(angles)), bin_(bin), window_(window), threads_(threads) {
+  double squared = 0.0;
+  for (const WallPoint& p : points) squared = std::max(squared, p.position.squaredNorm());
+  const double radius = std::sqrt(squared);
+  low_ = -radius - bin_;
+  bins_ = static_cast<int>(2.0 * (radius + bin_) / bin_) + 2;
+  votes_.assign(angles_.size() * static_cast<std::size_t>(bins_), 0);
+  peaks_.resize(angles_.size());
+  changed_.assign(angles_.size(), 1);
+  for (const double angle : angles_) normals_.emplace_back(std::cos(angle), std::sin(angle));
+}
+
+void VoteTable::vote(const std::vector<int>& numbers, int amount) {
+  const Ballots ballots(points_, numbers);
+  const double least = std::cos(kVoteAngle);
+  const auto rows = static_cast<std::ptrdiff_t>(normals_.size());
+#pragma omp parallel for num_threads(threadsFor(threads_)) \
+    schedule(static) if (numbers.size() > kFew)
+  for (std::ptrdiff_t r = 0; r < rows; ++r) {
+    const auto a = static_cast<std::size_t>(r);
+    const Eigen::Vector2d normal = normals_[a];
+    int* row = votes_.data() + a * static_cast<std::size_t>(bins_);
+    ballots.forEachRange(angles_[a], [&](std::size_t from, std::size_t to, bool sure) {
+      for (std::size_t i = from; i < to; ++i) {
+        const WallPoint& p = ballots.points[i];
+        if (!sure && normal.dot(p.normal) < least) continue;
+        row[binOf(normal.dot(p.position))] += amount;
+      }
+      changed_[a] = 1;
+    });
+  }
+}
+
+VoteTable::Peak VoteTable::strongest() {
+  Peak best;
+  for (std::size_t a = 0; a < angles_.size(); ++a) {
+    if (changed_[a] != 0) peaks_[a] = strongestOf(a);
+    changed_[a] = 0;
+    if (peaks_[a].votes > best.votes) best = peaks_[a];
+  }
+  return best;
+}
+
+void VoteTable::strikeOut(const Peak& peak) {
+  struck_.push_back(peak);
+  changed_[peak.angle] = 1;
+}
+
+WallLine VoteTable::lineAt(const Peak& peak) const {
+  const int* row = votes_.data() + peak.angle * static_cast<std::size_t>(bins_);
+  double sum = 0.0;
+  double weight = 0.0;
+  for (int b = peak.bin - window_ / 2; b <= peak.bin + window_ / 2; ++b) {
+    if (b < 0 || b >= bins_ || row[b] <= 0) continue;
+    sum += row[b] * (low_ + (b + 0.5) * bin_);
+    weight += row[b];
+  }
+  WallLine line;
+  line.normal = normals_[peak.angle];
+  line.offset = weight > 0.0 ? sum / weight : low_ + (peak.bin + 0.5) * bin_;
+  return line;
+}
+
+int VoteTable::binOf(double offset) const {
+  return std::clamp(static_cast<int>((offset - low_) / bin_), 0, bins_ - 1);
+}
+
+VoteTable::Peak VoteTable::strongestOf(std::size_t angle) const {
+  Peak best;
+  const int* row = votes_.data() + angle * static_cast<std::size_t>(bins_);
+  int sum = 0;
+  for (int b = 0; b < bins_; ++b) {
+    sum += row[b];
+    if (b >= window_) sum -= row[b - window_];
+    if (sum > best.votes && !struckOut(angle, b - window_ / 2)) {
+      best = {angle, b - window_ / 2, sum};
+    }
+  }
+  return best;
+}
+
+bool VoteTable::struckOut(std::size_t angle, int bin) const {
+  return std::any_of(struck_.begin(), struck_.end(),
+                     [&](const Peak& p) { return p.angle == angle && std::abs(p.bin - bin) <= 1; });
+}
+
+}  // namespace storey::detail
