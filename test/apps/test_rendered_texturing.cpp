@@ -20,6 +20,15 @@ PhotoOptions smallPhotos() {
   return options;
 }
 
+std::vector<FacadeTexture> texturesOf(const Rendered& rendered) {
+  FacadeTexturing texturing;
+  texturing.setModel(rendered.model);
+  texturing.setPhotos(rendered.photos);
+  std::vector<FacadeTexture> textures;
+  EXPECT_TRUE(texturing.texture(textures));
+  return textures;
+}
+
 /// Sums over the seen texels of all facades.
 struct Comparison {
   double squares = 0.0;
@@ -131,7 +140,7 @@ Painted occludersPaintedOn(const Rendered& rendered, const std::vector<FacadeTex
 TEST(RenderedTexturing, IsFaithfulWhereSeen) {
   for (const char* name : {"l_shape", "two_towers"}) {
     const Rendered rendered(name, smallPhotos());
-    const auto textures = textureFacades(facadesOf(rendered.model), rendered.photos);
+    const auto textures = texturesOf(rendered);
     const double psnr = compare(rendered.scene, textures).psnr();
     PhotoOptions options = smallPhotos();
     options.occluders = 0;
@@ -148,10 +157,10 @@ TEST(RenderedTexturing, NoOccluderIsPaintedOnWhereThreePhotosSeePastIt) {
   options.width = 360;
   for (const char* name : {"box", "l_shape"}) {
     const Rendered rendered(name, options);
-    const auto textures = textureFacades(facadesOf(rendered.model), rendered.photos);
+    const auto textures = texturesOf(rendered);
     PhotoOptions without = options;
     without.occluders = 0;
-    const auto bare = textureFacades(facadesOf(rendered.model), Rendered(name, without).photos);
+    const auto bare = texturesOf(Rendered(name, without));
     const Painted painted = occludersPaintedOn(rendered, textures, bare);
     EXPECT_GT(painted.clear, 10000u);
     EXPECT_LE(static_cast<double>(painted.wrong), 0.002 * static_cast<double>(painted.clear))

@@ -67,9 +67,11 @@ TEST(TexturedModel, FilesSayWhereEachCornerIs) {
   const test::TemporaryDirectory directory;
   const io::PolygonSoup soup = io::toPolygons(modelOf("l_shape"));
   const ModelFacades model = groupFacades("model", soup);
-  FacadeTexturingOptions options;
-  options.texel = 0.5;
-  const auto textures = textureFacades(model.facades, {}, options);
+  FacadeTexturing texturing;
+  texturing.setFacades(model.facades);
+  texturing.setTexelSize(0.5);
+  std::vector<FacadeTexture> textures;
+  ASSERT_TRUE(texturing.texture(textures));
   writeTexturedModel(directory.path(), soup, model, textures);
 
   const io::PolygonSoup read = io::readPolygons(directory.file("model.obj"));
