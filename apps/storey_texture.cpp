@@ -30,10 +30,12 @@ struct Request {
 };
 
 bool parse(int argc, char** argv, Request& r) {
-  cli::CommandLine line("storey_texture", {"MODEL CAMERAS IMAGES -o DIR [options]"},
-                        "An image of each facade of a closed model (.ply, .obj) from the photos "
-                        "that see it: model.obj, model.mtl, facades.json (scales), textures/. "
-                        "Lengths are in the model's unit.");
+  cli::CommandLine line(
+      "storey_texture", {"MODEL CAMERAS IMAGES -o DIR [options]"},
+      "An image of each facade of a closed model (.ply, .obj) from the photos "
+      "that see it: textured.glb, textured.obj, report.html to look at, facades.json "
+      "(scales), textures/. "
+      "Lengths are in the model's unit.");
   line.argument("model", r.model, "closed model, .ply or .obj");
   line.argument("cameras", r.cameras,
                 "cameras in the model's coordinates: COLMAP, Bundler or PMVS");
@@ -73,17 +75,18 @@ int run(int argc, char** argv) {
   const io::PolygonSoup soup = io::readPolygons(request.model);
   texture::ModelFacades model = texture::groupFacades(request.model, soup);
   std::vector<storey::FacadePhoto> photos = readPhotos(request);
+  const Eigen::Vector3d vertical = storey::synth::upOfModel(soup);
   texture::turnToCameras(photos, model.facades);
   storey::FacadeTexturing texturing;
   texturing.setFacades(model.facades);
   texturing.setPhotos(std::move(photos));
-  texturing.setVertical(storey::synth::upOfModel(soup));
+  texturing.setVertical(vertical);
   texturing.setTexelSize(request.texel);
   texturing.setMaxTexels(request.max_texels);
   texturing.setFillUnseen(request.fill);
   std::vector<storey::FacadeTexture> textures;
   if (!texturing.texture(textures)) return io::BadInput;
-  texture::writeTexturedModel(request.output, soup, model, textures);
+  texture::writeTexturedModel(request.output, soup, model, textures, vertical);
   print(textures);
   return io::Ok;
 }

@@ -57,8 +57,9 @@ std::vector<double> texelSizes(const std::vector<FacadeFrame>& frames,
 
 double FacadeTexture::seenShare() const {
   const auto seen = std::count(states.begin(), states.end(), TexelState::Seen);
-  const auto unseen = std::count(states.begin(), states.end(), TexelState::Unseen);
-  return seen == 0 ? 0.0 : static_cast<double>(seen) / static_cast<double>(seen + unseen);
+  const auto outside = std::count(states.begin(), states.end(), TexelState::Outside);
+  const auto all = static_cast<std::ptrdiff_t>(states.size()) - outside;
+  return seen == 0 ? 0.0 : static_cast<double>(seen) / static_cast<double>(all);
 }
 
 Eigen::Vector2d FacadeTexture::coordinates(const Eigen::Vector3d& point) const {

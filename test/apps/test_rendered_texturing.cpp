@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rendered_building.h"
+#include "synth/photos/rendered_building.h"
 
 namespace storey::synth {
 namespace {

@@ -21,7 +21,8 @@ struct FacadePhoto {
 enum class TexelState : std::uint8_t {
   Outside = 0,  ///< not on the facade
   Seen = 1,     ///< from a photo
-  Unseen = 2,   ///< no photo sees it; black, or filled
+  Unseen = 2,   ///< no photo sees it; black
+  Filled = 3,   ///< no photo sees it; filled from what was seen
 };
 
 /// A facade seen at right angles: a plan to measure in. Texel (i, j), counted from the upper left
