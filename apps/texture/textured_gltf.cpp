@@ -99,8 +99,9 @@ class Builder {
       attributes["TEXCOORD_0"] = file_.addAccessor(corners.coordinates, 2, "VEC2");
     }
     attributes["_FACE"] = file_.addAccessor(corners.facades, 1, "SCALAR");
+    GlbFile::Json made = material(slot);
     GlbFile::Json& materials = file_.json()["materials"];
-    materials.push_back(material(slot));
+    materials.push_back(std::move(made));
     return {{"attributes", std::move(attributes)}, {"material", materials.size() - 1}};
   }
 
