@@ -48,6 +48,7 @@ class Builder {
   GlbFile build(const Eigen::Vector3d& vertical) {
     GlbFile::Json& json = file_.json();
     json["extensionsUsed"] = {"KHR_materials_unlit"};
+    if (!soup_.crs.empty()) json["asset"]["extras"] = {{"crs", soup_.crs}};
     const Eigen::Vector3d up = yUp(vertical);
     json["nodes"][0]["mesh"] = 0;
     json["nodes"][0]["extras"] = {{"up", {up.x(), up.y(), up.z()}}};

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "texture/textured_model.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "export/textured_page.h"
 #include "io/images/image_files.h"
 #include "io/output_file.h"
 #include "texture/drawn_image.h"
@@ -34,6 +36,7 @@ void writeVector(io::OutputFile& file, const char* keyword, const Eigen::VectorX
 void writeObj(const std::string& path, const io::PolygonSoup& soup, const ModelFacades& model,
               const std::vector<FacadeTexture>& textures) {
   io::OutputFile file(path);
+  if (!soup.crs.empty()) file.write("# storey crs " + soup.crs + "\n");
   file.write("mtllib textured.mtl\n");
   for (const Eigen::Vector3d& vertex : soup.vertices) writeVector(file, "v", vertex);
   long long num_coordinates = 0;
@@ -86,6 +89,32 @@ void writePlan(const std::string& path, const ModelFacades& model,
   file.commit();
 }
 
+/// The images of the largest facades that were seen, the largest first.
+std::vector<exports::FacadeImage> largestImages(const std::vector<FacadeTexture>& textures,
+                                                const TextureSheets& sheets) {
+  constexpr double kLeast = 0.05;  // of the area of the largest; less are reveals and corners
+  const auto areaOf = [&](std::size_t f) {
+    return textures[f].frame.width * textures[f].frame.height;
+  };
+  std::vector<std::size_t> order;
+  for (std::size_t f = 0; f < textures.size(); ++f) {
+    if (sheets.places[f].sheet >= 0) order.push_back(f);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return areaOf(a) > areaOf(b); });
+  std::vector<exports::FacadeImage> images;
+  for (const std::size_t f : order) {
+    if (areaOf(f) < kLeast * areaOf(order.front())) break;
+    const FacadeTexture& t = textures[f];
+    const SheetPlace& place = sheets.places[f];
+    const auto shrunk = [&](int texels) { return (texels + place.shrink - 1) / place.shrink; };
+    images.push_back({f, place.sheet, place.left, place.top, shrunk(t.image.width),
+                      shrunk(t.image.height), t.texel * place.shrink, t.frame.width, t.frame.height,
+                      t.seenShare()});
+  }
+  return images;
+}
+
 }  // namespace
 
 void writeTexturedModel(const std::string& folder, const io::PolygonSoup& soup,
@@ -106,6 +135,8 @@ void writeTexturedModel(const std::string& folder, const io::PolygonSoup& soup,
   const TextureSheets sheets = laySheets(std::move(drawn));
   const exports::GlbFile glb = toTexturedGlb(soup, model, textures, sheets, vertical);
   glb.write(directory.file("textured.glb"));
+  exports::showTexturedModel(directory.file("report.html"), glb.bytes(),
+                             largestImages(textures, sheets));
 }
 
 }  // namespace storey::texture
