@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "synth/photos/texture_evaluation.h"
 
+#include <storey/surface/window_cutting.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace storey::synth {
 namespace {
@@ -13,18 +17,68 @@ Eigen::Vector3d middleOf(const FacadeTexture& t, std::size_t i) {
                        t.frame.height - (static_cast<double>(i / width) + 0.5) * t.texel);
 }
 
-/// The factor by which a channel is to be multiplied to be nearest to the truth where it was seen.
-double gainOf(const std::vector<FacadeTexture>& textures, const std::vector<RgbImage>& truths,
-              std::size_t channel) {
+std::size_t firstOnFacade(const FacadeTexture& t) {
+  const auto on = std::find_if(t.states.begin(), t.states.end(),
+                               [](TexelState state) { return state != TexelState::Outside; });
+  return static_cast<std::size_t>(on - t.states.begin());
+}
+
+/// The facade of the scene that a texture is of, or of whose windows: parallel, and not in front of
+/// it. The number of facades if there is none, as for reveals.
+std::size_t paintedFacade(const PhotoScene& scene, const FacadeTexture& t) {
+  constexpr double kSame = 1e-3;  // of a direction; of the height of a facade
+  const std::vector<FacadeFrame>& frames = scene.frames();
+  const std::size_t first = firstOnFacade(t);
+  if (first == t.states.size()) return frames.size();
+  const Eigen::Vector3d point = middleOf(t, first);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const Eigen::Vector2d at = frames[f].local(point);
+    const double depth = frames[f].normal().dot(frames[f].origin - point);
+    const bool parallel = frames[f].normal().dot(t.frame.normal()) > 1.0 - kSame;
+    const bool at_facade = std::abs(depth) < kSame * frames[f].height;
+    const bool in_window =
+        depth > 0.0 && depth < frames[f].height && scene.paints()[f].windowAt(at) != nullptr;
+    if (!parallel || !(at_facade || in_window)) continue;
+    if (isInside(frames[f].outline(scene.facades()[f]), at)) return f;
+  }
+  return frames.size();
+}
+
+/// What a texture ought to show: the paint of a facade behind its texels, 3 x 3 samples each.
+RgbImage truthOf(const PhotoScene& scene, std::size_t facade, const FacadeTexture& t) {
+  constexpr int kSamples = 3;  // in each direction
+  RgbImage truth(t.image.width, t.image.height);
+  for (std::size_t i = 0; i < t.states.size(); ++i) {
+    if (t.states[i] == TexelState::Outside) continue;
+    const Eigen::Vector3d middle = middleOf(t, i);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (int k = 0; k < kSamples * kSamples; ++k) {
+      const double right = ((k % kSamples + 0.5) / kSamples - 0.5) * t.texel;
+      const double up = ((k / kSamples + 0.5) / kSamples - 0.5) * t.texel;
+      const Eigen::Vector3d point = middle + right * t.frame.right + up * t.frame.up;
+      sum += scene.paints()[facade].color(scene.frames()[facade].local(point));
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double level = sum[static_cast<Eigen::Index>(c)] / (kSamples * kSamples);
+      truth.channels[3 * i + c] = static_cast<std::uint8_t>(std::lround(level));
+    }
+  }
+  return truth;
+}
+
+/// A channel of textures beside what it ought to be.
+struct Pairs {
+  std::vector<std::pair<double, double>> seen;      // found, true
+  std::vector<std::pair<double, double>> measured;  // of the state that is asked for
+};
+
+/// The factor by which what was found is nearest to the truth.
+double gainOf(const std::vector<std::pair<double, double>>& pairs) {
   double ab = 0.0;
   double aa = 0.0;
-  for (std::size_t f = 0; f < textures.size(); ++f) {
-    for (std::size_t i = 0; i < textures[f].states.size(); ++i) {
-      if (textures[f].states[i] != TexelState::Seen) continue;
-      const double a = textures[f].image.channels[3 * i + channel];
-      ab += a * truths[f].channels[3 * i + channel];
-      aa += a * a;
-    }
+  for (const auto& [found, truth] : pairs) {
+    ab += found * truth;
+    aa += found * found;
   }
   return aa > 0.0 ? ab / aa : 1.0;
 }
@@ -49,23 +103,27 @@ double differenceFrom(const RgbImage& other, const RgbImage& image, int x, int y
 
 double faithfulness(const PhotoScene& scene, const std::vector<FacadeTexture>& textures,
                     TexelState state) {
-  std::vector<RgbImage> truths;
-  for (std::size_t f = 0; f < textures.size(); ++f) {
-    truths.push_back(scene.orthoImage(f, textures[f].texel));
+  std::array<Pairs, 3> channels;
+  for (const FacadeTexture& t : textures) {
+    const std::size_t facade = paintedFacade(scene, t);
+    if (facade == scene.frames().size()) continue;
+    const RgbImage truth = truthOf(scene, facade, t);
+    for (std::size_t i = 0; i < t.states.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::pair<double, double> pair(t.image.channels[3 * i + c],
+                                             truth.channels[3 * i + c]);
+        if (t.states[i] == TexelState::Seen) channels[c].seen.push_back(pair);
+        if (t.states[i] == state) channels[c].measured.push_back(pair);
+      }
+    }
   }
   double squares = 0.0;
   double count = 0.0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double gain = gainOf(textures, truths, c);
-    for (std::size_t f = 0; f < textures.size(); ++f) {
-      for (std::size_t i = 0; i < textures[f].states.size(); ++i) {
-        if (textures[f].states[i] != state) continue;
-        const double off = gain * textures[f].image.channels[3 * i + c] -
-                           static_cast<double>(truths[f].channels[3 * i + c]);
-        squares += off * off;
-        count += 1.0;
-      }
-    }
+  for (const Pairs& channel : channels) {
+    const double gain = gainOf(channel.seen);
+    for (const auto& [found, truth] : channel.measured)
+      squares += std::pow(gain * found - truth, 2);
+    count += static_cast<double>(channel.measured.size());
   }
   return 10.0 * std::log10(255.0 * 255.0 * count / squares);
 }
@@ -116,6 +174,19 @@ PaintedOccluders paintedOccluders(const PhotoScene& scene, const std::vector<Cam
     }
   }
   return painted;
+}
+
+void cutPaintedWindows(const PhotoScene& scene, double depth, PolyhedralModel& model) {
+  for (std::size_t f = 0; f < scene.frames().size(); ++f) {
+    std::vector<FacadeWindow> windows;
+    for (const PaintedWindow& painted : scene.paints()[f].windows()) {
+      FacadeWindow window;
+      window.min = painted.min;
+      window.max = painted.max;
+      windows.push_back(window);
+    }
+    if (!windows.empty()) cutWindows(model, f, scene.frames()[f], windows, depth);
+  }
 }
 
 void hideMiddles(const PhotoScene& scene, std::vector<FacadeTexture>& textures) {

@@ -12,7 +12,8 @@ namespace storey::synth {
 /// How faithful textures are to what the facades were painted with, in decibels (PSNR) over the
 /// texels of one state of all facades together. The one factor for each channel that no method can
 /// know, the exposure of all photos, is fitted to the seen texels first.
-/// \param textures of the facades of the scene, in their order
+/// \param textures of the faces of the scene's model, or of the same with windows cut: panes lie
+///        behind their wall; reveals are left out
 double faithfulness(const PhotoScene& scene, const std::vector<FacadeTexture>& textures,
                     TexelState state = TexelState::Seen);
 
@@ -35,6 +36,9 @@ struct PaintedOccluders {
 PaintedOccluders paintedOccluders(const PhotoScene& scene, const std::vector<Camera>& cameras,
                                   const std::vector<FacadeTexture>& textures,
                                   const std::vector<FacadeTexture>& bare);
+
+/// Cuts all painted windows into the model of a scene, to the depth that they are rendered with.
+void cutPaintedWindows(const PhotoScene& scene, double depth, PolyhedralModel& model);
 
 /// Makes a rectangle in the middle of each wall unseen, as a large tree in front of it would: three
 /// tenths of its width and height.
