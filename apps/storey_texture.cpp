@@ -2,6 +2,7 @@
 // Puts photos on a model.
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/command_line.h"
@@ -23,24 +24,27 @@ struct Request {
   std::string cameras;
   std::string images;
   std::string output;
-  storey::FacadeTexturingOptions texturing;
+  double texel = 0.0;
+  double max_texels = storey::FacadeTexturing().getMaxTexels();
+  bool fill = false;
 };
 
 bool parse(int argc, char** argv, Request& r) {
-  cli::CommandLine line("storey_texture", {"MODEL CAMERAS IMAGES -o DIR [options]"},
-                        "An image of each facade of a closed model (.ply, .obj) from the photos "
-                        "that see it: model.obj, model.mtl, facades.json (scales), textures/. "
-                        "Lengths are in the model's unit.");
+  cli::CommandLine line(
+      "storey_texture", {"MODEL CAMERAS IMAGES -o DIR [options]"},
+      "An image of each facade of a closed model (.ply, .obj) from the photos "
+      "that see it: textured.glb, textured.obj, report.html to look at, facades.json "
+      "(scales), textures/. "
+      "Lengths are in the model's unit.");
   line.argument("model", r.model, "closed model, .ply or .obj");
   line.argument("cameras", r.cameras,
                 "cameras in the model's coordinates: COLMAP, Bundler or PMVS");
   line.argument("images", r.images, "folder of the photos");
   line.text("output,o", r.output, "folder to write into");
-  line.number("texel", r.texturing.texel, cli::kNonNegative,
+  line.number("texel", r.texel, cli::kNonNegative,
               "side of a texel, length; 0: what the photos resolve");
-  line.number("max-texels", r.texturing.max_texels, cli::Range{1.0},
-              "most texels of all facades together");
-  line.flag("fill", r.texturing.fill, "fill what no photo saw from the facade's own repetition");
+  line.number("max-texels", r.max_texels, cli::Range{1.0}, "most texels of all facades together");
+  line.flag("fill", r.fill, "fill what no photo saw from the facade's own repetition");
   if (!line.parse(argc, argv)) return false;
   if (r.images.empty() || r.output.empty()) {
     line.fail("a model, its cameras, the folder of the images, and an output (-o) are needed");
@@ -70,12 +74,19 @@ int run(int argc, char** argv) {
   if (!parse(argc, argv, request)) return io::Ok;
   const io::PolygonSoup soup = io::readPolygons(request.model);
   texture::ModelFacades model = texture::groupFacades(request.model, soup);
-  const std::vector<storey::FacadePhoto> photos = readPhotos(request);
+  std::vector<storey::FacadePhoto> photos = readPhotos(request);
+  const Eigen::Vector3d vertical = storey::synth::upOfModel(soup);
   texture::turnToCameras(photos, model.facades);
-  request.texturing.vertical = storey::synth::upOfModel(soup);
-  const std::vector<storey::FacadeTexture> textures =
-      storey::textureFacades(model.facades, photos, request.texturing);
-  texture::writeTexturedModel(request.output, soup, model, textures);
+  storey::FacadeTexturing texturing;
+  texturing.setFacades(model.facades);
+  texturing.setPhotos(std::move(photos));
+  texturing.setVertical(vertical);
+  texturing.setTexelSize(request.texel);
+  texturing.setMaxTexels(request.max_texels);
+  texturing.setFillUnseen(request.fill);
+  std::vector<storey::FacadeTexture> textures;
+  if (!texturing.texture(textures)) return io::BadInput;
+  texture::writeTexturedModel(request.output, soup, model, textures, vertical);
   print(textures);
   return io::Ok;
 }

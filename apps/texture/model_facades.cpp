@@ -24,6 +24,10 @@ ModelFacades groupFacades(const std::string& path, const io::PolygonSoup& soup) 
     }
     model.facades[facade].rings.push_back(ring);
   }
+  model.triangles = mesh.triangles.triangles;
+  for (const int piece : mesh.piece_of) {
+    model.facade_of_triangle.push_back(model.facade_of[static_cast<std::size_t>(piece)]);
+  }
   for (std::size_t f = 0; f < normals.size(); ++f) {
     if (!(normals[f].norm() > 0.0)) {
       throw io::Failure(io::BadInput, path, "has a polygon without area",

@@ -5,8 +5,11 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "export/textured_page.h"
 #include "io/images/image_files.h"
 #include "io/output_file.h"
+#include "texture/drawn_image.h"
+#include "texture/textured_gltf.h"
 
 namespace storey::texture {
 namespace {
@@ -21,45 +24,6 @@ std::string nameOf(std::size_t facade, const char* end) {
 
 std::string materialOf(std::size_t facade) { return "facade_" + std::to_string(facade); }
 
-/// The image with the colours at the facade's edge carried on beyond it by two texels: renderers
-/// interpolate, and would draw a dark rim.
-RgbImage withRim(const FacadeTexture& texture) {
-  constexpr int kRim = 2;
-  RgbImage image = texture.image;
-  std::vector<char> known;
-  for (const TexelState state : texture.states) known.push_back(state != TexelState::Outside);
-  for (int pass = 0; pass < kRim; ++pass) {
-    const std::vector<char> before = known;
-    for (int y = 0; y < image.height; ++y) {
-      for (int x = 0; x < image.width; ++x) {
-        const int here = y * image.width + x;
-        if (before[static_cast<std::size_t>(here)] != 0) continue;
-        for (const int step : {-1, 1, -image.width, image.width}) {
-          const int from = here + step;
-          const bool wraps = (step == -1 && x == 0) || (step == 1 && x + 1 == image.width);
-          if (wraps || from < 0 || from >= image.width * image.height) continue;
-          if (before[static_cast<std::size_t>(from)] == 0) continue;
-          std::copy_n(image.channels.data() + 3 * from, 3, image.at(x, y));
-          known[static_cast<std::size_t>(here)] = 1;
-          break;
-        }
-      }
-    }
-  }
-  return image;
-}
-
-RgbImage maskOf(const FacadeTexture& texture) {
-  RgbImage mask(texture.image.width, texture.image.height);
-  for (std::size_t i = 0; i < texture.states.size(); ++i) {
-    const int level = texture.states[i] == TexelState::Seen     ? 255
-                      : texture.states[i] == TexelState::Unseen ? 0
-                                                                : 128;
-    std::fill_n(mask.channels.data() + 3 * i, 3, static_cast<std::uint8_t>(level));
-  }
-  return mask;
-}
-
 void writeVector(io::OutputFile& file, const char* keyword, const Eigen::VectorXd& v) {
   file.write(keyword);
   for (const double number : v) {
@@ -72,7 +36,8 @@ void writeVector(io::OutputFile& file, const char* keyword, const Eigen::VectorX
 void writeObj(const std::string& path, const io::PolygonSoup& soup, const ModelFacades& model,
               const std::vector<FacadeTexture>& textures) {
   io::OutputFile file(path);
-  file.write("mtllib model.mtl\n");
+  if (!soup.crs.empty()) file.write("# storey crs " + soup.crs + "\n");
+  file.write("mtllib textured.mtl\n");
   for (const Eigen::Vector3d& vertex : soup.vertices) writeVector(file, "v", vertex);
   long long num_coordinates = 0;
   for (std::size_t i = 0; i < soup.polygons.size(); ++i) {
@@ -99,7 +64,12 @@ void writeMaterials(const std::string& path, std::size_t num_facades) {
 
 Json toJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-void writePlan(const std::string& path, const std::vector<FacadeTexture>& textures) {
+void writePlan(const std::string& path, const ModelFacades& model,
+               const std::vector<FacadeTexture>& textures) {
+  std::vector<Json> polygons(textures.size(), Json::array());
+  for (std::size_t i = 0; i < model.facade_of.size(); ++i) {
+    polygons[model.facade_of[i]].push_back(i);
+  }
   Json facades = Json::array();
   for (std::size_t f = 0; f < textures.size(); ++f) {
     const FacadeTexture& t = textures[f];
@@ -111,26 +81,62 @@ void writePlan(const std::string& path, const std::vector<FacadeTexture>& textur
                        {"width", t.frame.width},
                        {"height", t.frame.height},
                        {"texel", t.texel},
-                       {"seen", t.seenShare()}});
+                       {"seen", t.seenShare()},
+                       {"polygons", std::move(polygons[f])}});
   }
   io::OutputFile file(path);
   file.write(Json{{"facades", facades}}.dump(1) + "\n");
   file.commit();
 }
 
+/// The images of the largest facades that were seen, the largest first.
+std::vector<exports::FacadeImage> largestImages(const std::vector<FacadeTexture>& textures,
+                                                const TextureSheets& sheets) {
+  constexpr double kLeast = 0.05;  // of the area of the largest; less are reveals and corners
+  const auto areaOf = [&](std::size_t f) {
+    return textures[f].frame.width * textures[f].frame.height;
+  };
+  std::vector<std::size_t> order;
+  for (std::size_t f = 0; f < textures.size(); ++f) {
+    if (sheets.places[f].sheet >= 0) order.push_back(f);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return areaOf(a) > areaOf(b); });
+  std::vector<exports::FacadeImage> images;
+  for (const std::size_t f : order) {
+    if (areaOf(f) < kLeast * areaOf(order.front())) break;
+    const FacadeTexture& t = textures[f];
+    const SheetPlace& place = sheets.places[f];
+    const auto shrunk = [&](int texels) { return (texels + place.shrink - 1) / place.shrink; };
+    images.push_back({f, place.sheet, place.left, place.top, shrunk(t.image.width),
+                      shrunk(t.image.height), t.texel * place.shrink, t.frame.width, t.frame.height,
+                      t.seenShare()});
+  }
+  return images;
+}
+
 }  // namespace
 
 void writeTexturedModel(const std::string& folder, const io::PolygonSoup& soup,
-                        const ModelFacades& model, const std::vector<FacadeTexture>& textures) {
+                        const ModelFacades& model, const std::vector<FacadeTexture>& textures,
+                        const Eigen::Vector3d& vertical) {
   const io::OutputDirectory directory(folder);
   const io::OutputDirectory images(directory.file("textures"));
+  std::vector<RgbImage> drawn;  // none of facades that no photo sees
   for (std::size_t f = 0; f < textures.size(); ++f) {
-    io::writePng(directory.file(nameOf(f, ".png")), withRim(textures[f]));
+    RgbImage image = drawnImage(textures[f]);
+    io::writePng(directory.file(nameOf(f, ".png")), image);
     io::writePng(directory.file(nameOf(f, "_mask.png")), maskOf(textures[f]));
+    drawn.push_back(textures[f].seenShare() > 0.0 ? std::move(image) : RgbImage());
   }
-  writeMaterials(directory.file("model.mtl"), textures.size());
-  writeObj(directory.file("model.obj"), soup, model, textures);
-  writePlan(directory.file("facades.json"), textures);
+  writeMaterials(directory.file("textured.mtl"), textures.size());
+  writeObj(directory.file("textured.obj"), soup, model, textures);
+  writePlan(directory.file("facades.json"), model, textures);
+  const TextureSheets sheets = laySheets(std::move(drawn));
+  const exports::GlbFile glb = toTexturedGlb(soup, model, textures, sheets, vertical);
+  glb.write(directory.file("textured.glb"));
+  exports::showTexturedModel(directory.file("report.html"), glb.bytes(),
+                             largestImages(textures, sheets));
 }
 
 }  // namespace storey::texture

@@ -3,6 +3,7 @@
 
 #include <storey/surface/facade_texturing.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,9 @@ namespace storey::texture {
 /// A model's polygons put together to facades: coplanar neighbours are one.
 struct ModelFacades {
   std::vector<Facade> facades;
-  std::vector<std::size_t> facade_of;  ///< of each of the soup's polygons
+  std::vector<std::size_t> facade_of;         ///< of each of the soup's polygons
+  std::vector<std::array<int, 3>> triangles;  ///< over the soup's vertices
+  std::vector<std::size_t> facade_of_triangle;
 };
 
 /// \throws io::Failure (BadInput) naming `path` if a polygon is none
@@ -23,12 +26,15 @@ ModelFacades groupFacades(const std::string& path, const io::PolygonSoup& soup);
 /// enclosed space, a yard or a room.
 void turnToCameras(const std::vector<FacadePhoto>& photos, std::vector<Facade>& facades);
 
-/// Writes model.obj, model.mtl and, for each facade k with texels,
-///   textures/facade_kkk.png, what is seen at right angles, and
-///   textures/facade_kkk_mask.png: white where a photo saw it, black where none did, grey off it;
-/// and facades.json: for each facade its image, frame, size of a texel, and share seen.
+/// Writes textured.obj, textured.mtl, textured.glb (`toTexturedGlb`) and, for each facade k,
+///   textures/facade_kkk.png, the facade seen at right angles (`drawnImage`), and
+///   textures/facade_kkk_mask.png, what of it was seen (`maskOf`);
+/// and facades.json: for each facade its image, frame, size of a texel, share seen, and polygons of
+/// textured.obj. The model and the images are shown in report.html, which is made if there is none.
+/// \param vertical unit, upwards
 /// \throws io::Failure (CannotCreate, IoError)
 void writeTexturedModel(const std::string& folder, const io::PolygonSoup& soup,
-                        const ModelFacades& model, const std::vector<FacadeTexture>& textures);
+                        const ModelFacades& model, const std::vector<FacadeTexture>& textures,
+                        const Eigen::Vector3d& vertical);
 
 }  // namespace storey::texture

@@ -19,27 +19,6 @@ using detail::FacadeSight;
 using detail::TextureGrid;
 using detail::TexturePhoto;
 
-bool isValid(const std::vector<FacadePhoto>& photos, const FacadeTexturingOptions& options) {
-  const bool unit = std::abs(options.vertical.norm() - 1.0) < 1e-6;
-  if (!unit || !(options.texel >= 0.0) || !(options.max_texels >= 1.0)) {
-    PCL_ERROR(
-        "[storey::textureFacades] vertical is to be of length 1, texel >= 0 and max_texels "
-        ">= 1; they are %g, %g and %g.\n",
-        options.vertical.norm(), options.texel, options.max_texels);
-    return false;
-  }
-  for (const FacadePhoto& photo : photos) {
-    if (photo.image.width == photo.camera.width && photo.image.height == photo.camera.height &&
-        !photo.image.empty()) {
-      continue;
-    }
-    PCL_ERROR("[storey::textureFacades] an image has %d x %d pixels, its camera %d x %d.\n",
-              photo.image.width, photo.image.height, photo.camera.width, photo.camera.height);
-    return false;
-  }
-  return true;
-}
-
 std::vector<TexturePhoto> prepare(const std::vector<FacadePhoto>& photos) {
   std::vector<TexturePhoto> prepared;
   for (const FacadePhoto& photo : photos) {
@@ -51,10 +30,10 @@ std::vector<TexturePhoto> prepare(const std::vector<FacadePhoto>& photos) {
 /// Side of a texel on each facade. Facades that no photo sees get the coarsest of the others.
 std::vector<double> texelSizes(const std::vector<FacadeFrame>& frames,
                                const std::vector<FacadeOutline>& outlines, const FacadeSight& sight,
-                               const std::vector<TexturePhoto>& photos,
-                               const FacadeTexturingOptions& options) {
-  std::vector<double> sizes(frames.size(), options.texel);
-  if (options.texel == 0.0) {
+                               const std::vector<TexturePhoto>& photos, double texel_size,
+                               double max_texels) {
+  std::vector<double> sizes(frames.size(), texel_size);
+  if (texel_size == 0.0) {
     double longest = 0.0;
     for (std::size_t f = 0; f < frames.size(); ++f) {
       sizes[f] = detail::resolvedTexel(frames[f], outlines[f], f, sight, photos);
@@ -69,7 +48,7 @@ std::vector<double> texelSizes(const std::vector<FacadeFrame>& frames,
   for (std::size_t f = 0; f < frames.size(); ++f) {
     texels += frames[f].width / sizes[f] * frames[f].height / sizes[f];
   }
-  const double growth = std::sqrt(std::max(1.0, texels / options.max_texels));
+  const double growth = std::sqrt(std::max(1.0, texels / max_texels));
   for (double& size : sizes) size *= growth;
   return sizes;
 }
@@ -78,8 +57,9 @@ std::vector<double> texelSizes(const std::vector<FacadeFrame>& frames,
 
 double FacadeTexture::seenShare() const {
   const auto seen = std::count(states.begin(), states.end(), TexelState::Seen);
-  const auto unseen = std::count(states.begin(), states.end(), TexelState::Unseen);
-  return seen == 0 ? 0.0 : static_cast<double>(seen) / static_cast<double>(seen + unseen);
+  const auto outside = std::count(states.begin(), states.end(), TexelState::Outside);
+  const auto all = static_cast<std::ptrdiff_t>(states.size()) - outside;
+  return seen == 0 ? 0.0 : static_cast<double>(seen) / static_cast<double>(all);
 }
 
 Eigen::Vector2d FacadeTexture::coordinates(const Eigen::Vector3d& point) const {
@@ -88,38 +68,62 @@ Eigen::Vector2d FacadeTexture::coordinates(const Eigen::Vector3d& point) const {
           1.0 - (frame.height - place.y()) / (image.height * texel)};
 }
 
-std::vector<FacadeTexture> textureFacades(const std::vector<Facade>& facades,
-                                          const std::vector<FacadePhoto>& photos,
-                                          const FacadeTexturingOptions& options) {
-  if (!isValid(photos, options) || facades.empty()) return {};
-  const std::vector<TexturePhoto> prepared = prepare(photos);
-  const FacadeSight sight(facades);
+bool FacadeTexturing::inputValid() const {
+  if (facades_.empty()) {
+    PCL_ERROR("[storey::FacadeTexturing] there is no model.\n");
+    return false;
+  }
+  const bool unit = std::abs(vertical_.norm() - 1.0) < 1e-6;
+  if (!unit || !(texel_size_ >= 0.0) || !(max_texels_ >= 1.0)) {
+    PCL_ERROR(
+        "[storey::FacadeTexturing] the vertical is to be of length 1, the texel size >= 0 and the "
+        "most texels >= 1; they are %g, %g and %g.\n",
+        vertical_.norm(), texel_size_, max_texels_);
+    return false;
+  }
+  for (const FacadePhoto& photo : photos_) {
+    if (photo.image.width == photo.camera.width && photo.image.height == photo.camera.height &&
+        !photo.image.empty()) {
+      continue;
+    }
+    PCL_ERROR("[storey::FacadeTexturing] an image has %d x %d pixels, its camera %d x %d.\n",
+              photo.image.width, photo.image.height, photo.camera.width, photo.camera.height);
+    return false;
+  }
+  return true;
+}
+
+bool FacadeTexturing::texture(std::vector<FacadeTexture>& textures) const {
+  textures.clear();
+  if (!inputValid()) return false;
+  const std::vector<TexturePhoto> prepared = prepare(photos_);
+  const FacadeSight sight(facades_);
   std::vector<FacadeFrame> frames;
   std::vector<FacadeOutline> outlines;
-  for (const Facade& facade : facades) {
-    frames.push_back(frameOf(facade, options.vertical));
+  for (const Facade& facade : facades_) {
+    frames.push_back(frameOf(facade, vertical_));
     outlines.push_back(frames.back().outline(facade));
   }
-  const std::vector<double> texels = texelSizes(frames, outlines, sight, prepared, options);
+  const std::vector<double> texels =
+      texelSizes(frames, outlines, sight, prepared, texel_size_, max_texels_);
 
   std::vector<TextureGrid> grids;
   std::vector<std::vector<std::vector<detail::BlockView>>> views;
-  for (std::size_t f = 0; f < facades.size(); ++f) {
+  for (std::size_t f = 0; f < facades_.size(); ++f) {
     grids.emplace_back(f, frames[f], outlines[f], texels[f]);
     views.push_back(detail::findViews(grids[f], sight, prepared));
   }
   const std::vector<Eigen::Array3f> gains = detail::levelExposures(views, prepared.size());
-  std::vector<FacadeTexture> textures;
-  for (std::size_t f = 0; f < facades.size(); ++f) {
+  for (std::size_t f = 0; f < facades_.size(); ++f) {
     detail::findHidden(grids[f], gains, views[f]);
     const std::vector<int> selected = detail::selectViews(grids[f], views[f]);
     const std::vector<Eigen::Array3f> corrections =
         detail::levelSeams(grids[f], gains, views[f], selected);
     textures.push_back(
         detail::composeTexture(grids[f], sight, prepared, gains, views[f], selected, corrections));
-    if (options.fill) detail::fillUnseen(textures.back());
+    if (fill_unseen_) detail::fillUnseen(textures.back());
   }
-  return textures;
+  return true;
 }
 
 }  // namespace storey

@@ -115,6 +115,8 @@ class Filler {
   explicit Filler(FacadeTexture& texture) : texture_(texture) {}
 
   void fill() {
+    const auto any = std::find(texture_.states.begin(), texture_.states.end(), TexelState::Seen);
+    if (any == texture_.states.end()) return;
     const Repetition period = findRepetition(texture_);
     bool all = true;
     const RgbImage seen = texture_.image;
@@ -130,6 +132,8 @@ class Filler {
       }
     }
     if (!all) smoothOver(filled);
+    std::replace(texture_.states.begin(), texture_.states.end(), TexelState::Unseen,
+                 TexelState::Filled);
   }
 
  private:

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <string>
 
-#include "rendered_building.h"
+#include "synth/photos/rendered_building.h"
 
 namespace storey::synth {
 namespace {

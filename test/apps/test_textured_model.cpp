@@ -67,12 +67,14 @@ TEST(TexturedModel, FilesSayWhereEachCornerIs) {
   const test::TemporaryDirectory directory;
   const io::PolygonSoup soup = io::toPolygons(modelOf("l_shape"));
   const ModelFacades model = groupFacades("model", soup);
-  FacadeTexturingOptions options;
-  options.texel = 0.5;
-  const auto textures = textureFacades(model.facades, {}, options);
-  writeTexturedModel(directory.path(), soup, model, textures);
+  FacadeTexturing texturing;
+  texturing.setFacades(model.facades);
+  texturing.setTexelSize(0.5);
+  std::vector<FacadeTexture> textures;
+  ASSERT_TRUE(texturing.texture(textures));
+  writeTexturedModel(directory.path(), soup, model, textures, Eigen::Vector3d::UnitZ());
 
-  const io::PolygonSoup read = io::readPolygons(directory.file("model.obj"));
+  const io::PolygonSoup read = io::readPolygons(directory.file("textured.obj"));
   ASSERT_EQ(read.polygons.size(), soup.polygons.size());
   for (std::size_t v = 0; v < soup.vertices.size(); ++v) {
     EXPECT_EQ(read.vertices[v], soup.vertices[v]);
@@ -88,7 +90,7 @@ TEST(TexturedModel, FilesSayWhereEachCornerIs) {
     EXPECT_EQ(mask.height, image.height);
   }
   // Corner by corner: x along the wall in texels, y from the image's lower edge.
-  std::istringstream lines(test::readAll(directory.file("model.obj")));
+  std::istringstream lines(test::readAll(directory.file("textured.obj")));
   std::vector<Eigen::Vector2d> coordinates;
   std::size_t polygon = 0;
   for (std::string line; std::getline(lines, line);) {

@@ -17,13 +17,13 @@
 #include <vtkPolyDataReader.h>
 #include <vtkSTLReader.h>
 
-#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "apps/temporary_files.h"
 #include "export/exported_models.h"
+#include "export/glb.h"
 #include "export/gltf.h"
 #include "export/obj.h"
 #include "export/stl.h"
@@ -81,45 +81,6 @@ void expectModel(const TriangleSoup& soup, const PolyhedralModel& model, double 
   EXPECT_TRUE(isClosed(soup));
   EXPECT_NEAR(volumeOf(soup), check.volume, (model.grid + 2.0 * rounding) * check.area);
 }
-
-/// A GLB taken apart.
-struct Glb {
-  Json json;
-  std::string bytes;
-
-  explicit Glb(const std::string& file) {
-    EXPECT_EQ(file.substr(0, 4), "glTF");
-    EXPECT_EQ(word(file, 4), 2u);
-    EXPECT_EQ(word(file, 8), file.size());
-    const std::size_t size = word(file, 12);
-    EXPECT_EQ(file.substr(16, 4), "JSON");
-    json = Json::parse(file.substr(20, size));
-    EXPECT_EQ(file.substr(24 + size, 4), std::string("BIN\0", 4));
-    EXPECT_EQ(word(file, 20 + size), file.size() - 28 - size);
-    bytes = file.substr(28 + size);
-    EXPECT_EQ(bytes.size(), json["buffers"][0]["byteLength"]);
-  }
-
-  static std::size_t word(const std::string& file, std::size_t at) {
-    std::uint32_t value = 0;
-    std::memcpy(&value, file.data() + at, sizeof value);
-    return value;
-  }
-
-  std::vector<float> values(const Json& accessor_index) const {
-    const Json& accessor = json["accessors"][accessor_index.get<std::size_t>()];
-    const Json& view = json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
-    std::vector<float> result(view["byteLength"].get<std::size_t>() / sizeof(float));
-    std::memcpy(result.data(), bytes.data() + view["byteOffset"].get<std::size_t>(),
-                result.size() * sizeof(float));
-    return result;
-  }
-
-  Eigen::Vector3d translation() const {
-    const Json& t = json["nodes"][0]["translation"];
-    return {t[0].get<double>(), t[1].get<double>(), t[2].get<double>()};
-  }
-};
 
 TEST(Gltf, VtkReadsAClosedSurfaceOfTheModelsVolume) {
   forEachExported([](const std::string& name, const PolyhedralModel& model,

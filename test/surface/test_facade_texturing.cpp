@@ -49,6 +49,19 @@ Camera cameraAt(const Eigen::Vector3d& center, const Eigen::Vector3d& target) {
   return camera;
 }
 
+/// Textures of facades from photos, all else by default.
+std::vector<FacadeTexture> texturesOf(const std::vector<Facade>& facades,
+                                      const std::vector<FacadePhoto>& photos,
+                                      double texel_size = 0.0) {
+  FacadeTexturing texturing;
+  texturing.setFacades(facades);
+  texturing.setPhotos(photos);
+  texturing.setTexelSize(texel_size);
+  std::vector<FacadeTexture> textures;
+  EXPECT_TRUE(texturing.texture(textures));
+  return textures;
+}
+
 using Shading = std::function<double(const Eigen::Vector3d& from, const Eigen::Vector3d& along)>;
 
 /// Grey level along a ray: the wall's, times the exposure.
@@ -117,7 +130,7 @@ TEST(FacadeFrame, IsSeenFromOutside) {
 // middle, a little more towards the ends.
 TEST(FacadeTexturing, TexelsAreWhatThePhotosResolve) {
   const FacadePhoto photo = photograph(cameraAt({3.0, -6.0, 2.0}, {3.0, 0.0, 2.0}), shadeWall);
-  const auto textures = textureFacades({wall()}, {photo});
+  const auto textures = texturesOf({wall()}, {photo});
   ASSERT_EQ(textures.size(), 1u);
   EXPECT_GT(textures[0].texel, 6.0 / 150.0);
   EXPECT_LT(textures[0].texel, 1.3 * 6.0 / 150.0);
@@ -130,7 +143,7 @@ TEST(FacadeTexturing, ExposuresAreLevelled) {
   for (const Camera& camera : fiveCameras()) {
     photos.push_back(photograph(camera, shadeWall, exposures[photos.size()]));
   }
-  const auto textures = textureFacades({wall()}, photos);
+  const auto textures = texturesOf({wall()}, photos);
   EXPECT_EQ(textures[0].seenShare(), 1.0);
   EXPECT_LT(largestError(textures[0]), 6.0);  // 60 without levelling
 }
@@ -144,7 +157,7 @@ TEST(FacadeTexturing, WhatStandsInFrontIsNotPaintedOn) {
   };
   std::vector<FacadePhoto> photos;
   for (const Camera& camera : fiveCameras()) photos.push_back(photograph(camera, pole));
-  const auto textures = textureFacades({wall()}, photos);
+  const auto textures = texturesOf({wall()}, photos);
   EXPECT_LT(largestError(textures[0]), 15.0);  // the pole is more than 50 darker than the wall
 }
 
@@ -153,9 +166,7 @@ TEST(FacadeTexturing, WhatStandsInFrontIsNotPaintedOn) {
 TEST(FacadeTexturing, WhatOtherFacadesHideIsUnseen) {
   const Facade in_front = {{{{-20, -1, -5}, {20, -1, -5}, {20, -1, 2}, {-20, -1, 2}}}, {0, -1, 0}};
   const FacadePhoto photo = photograph(cameraAt({3.0, -6.0, 2.0}, {3.0, 0.0, 2.0}), shadeWall);
-  FacadeTexturingOptions options;
-  options.texel = 0.05;
-  const auto textures = textureFacades({wall(), in_front}, {photo}, options);
+  const auto textures = texturesOf({wall(), in_front}, {photo}, 0.05);
   ASSERT_EQ(textures.size(), 2u);
   const FacadeTexture& t = textures[0];
   for (int y = 0; y < t.image.height; ++y) {
@@ -170,9 +181,9 @@ TEST(FacadeTexturing, SameForAnyNumberOfThreads) {
   for (const Camera& camera : fiveCameras()) photos.push_back(photograph(camera, shadeWall, 1.2));
   const int before = omp_get_max_threads();
   omp_set_num_threads(1);
-  const auto one = textureFacades({wall()}, photos);
+  const auto one = texturesOf({wall()}, photos);
   omp_set_num_threads(4);
-  const auto four = textureFacades({wall()}, photos);
+  const auto four = texturesOf({wall()}, photos);
   omp_set_num_threads(before);
   EXPECT_EQ(one[0].image.channels, four[0].image.channels);
   EXPECT_EQ(one[0].photos, four[0].photos);
@@ -180,14 +191,27 @@ TEST(FacadeTexturing, SameForAnyNumberOfThreads) {
 
 TEST(FacadeTexturing, RefusesWhatCannotBe) {
   FacadePhoto photo = photograph(fiveCameras()[0], shadeWall);
-  FacadeTexturingOptions options;
-  options.texel = -1.0;
-  EXPECT_TRUE(textureFacades({wall()}, {photo}, options).empty());
+  FacadeTexturing texturing;
+  std::vector<FacadeTexture> textures(1);
+  EXPECT_FALSE(texturing.texture(textures));  // no model
+  EXPECT_TRUE(textures.empty());
+  texturing.setFacades({wall()});
+  texturing.setTexelSize(-1.0);
+  EXPECT_FALSE(texturing.texture(textures));
+  texturing.setTexelSize(0.0);
+  texturing.setMaxTexels(0.0);
+  EXPECT_FALSE(texturing.texture(textures));
+  texturing.setMaxTexels(1e6);
+  texturing.setVertical({0.0, 0.0, 2.0});
+  EXPECT_FALSE(texturing.texture(textures));
+  texturing.setVertical(Eigen::Vector3d::UnitZ());
   photo.camera.width = 100;
-  EXPECT_TRUE(textureFacades({wall()}, {photo}).empty());
-  const auto unseen = textureFacades({wall()}, {});
-  ASSERT_EQ(unseen.size(), 1u);
-  EXPECT_EQ(unseen[0].seenShare(), 0.0);
+  texturing.setPhotos({photo});
+  EXPECT_FALSE(texturing.texture(textures));
+  texturing.setPhotos({});
+  EXPECT_TRUE(texturing.texture(textures));
+  ASSERT_EQ(textures.size(), 1u);
+  EXPECT_EQ(textures[0].seenShare(), 0.0);
 }
 
 TEST(IsEnclosed, PointsInAndOutOfABox) {
@@ -240,9 +264,11 @@ TEST(TextureFill, IsSmoothWhereNothingRepeats) {
 TEST(TextureMesh, IsWrittenByPcl) {
   const PolyhedralModel model =
       extrudeFloorplans({test::layer(0, 3, {test::ring({{0, 0}, {4, 0}, {4, 5}, {0, 5}})})});
-  FacadeTexturingOptions options;
-  options.texel = 0.25;
-  const auto textures = textureFacades(facadesOf(model), {}, options);
+  FacadeTexturing texturing;
+  texturing.setModel(model);
+  texturing.setTexelSize(0.25);
+  std::vector<FacadeTexture> textures;
+  ASSERT_TRUE(texturing.texture(textures));
   std::vector<std::string> images;
   for (std::size_t f = 0; f < model.faces.size(); ++f) images.push_back(std::to_string(f) + ".png");
   const pcl::TextureMesh mesh = toTextureMesh(model, textures, images);

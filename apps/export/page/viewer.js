@@ -87,45 +87,13 @@
     const radius = (surface.mesh.geometry.computeBoundingSphere(),
                     surface.mesh.geometry.boundingSphere.radius);
     const scene = new THREE.Scene();
-    scene.background = new THREE.Color(0xeef1f4);
-    const sky = new THREE.HemisphereLight(0xffffff, 0xa8a4a0, 0.8);
-    sky.position.copy(up);
-    scene.add(surface.mesh, makeEdges(), sky);
-    const camera = new THREE.PerspectiveCamera(35, 1, radius / 100, radius * 100);
-    // From the front, a little to the right and above, whatever is up.
-    const right = new THREE.Vector3(1, 0, 0).applyQuaternion(
-        new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), up));
-    const front = new THREE.Vector3().crossVectors(right, up);
-    camera.up.copy(up);
-    camera.position.copy(front).multiplyScalar(2.6).addScaledVector(right, 1.7)
-        .addScaledVector(up, 1.6).multiplyScalar(radius);
-    const sun = new THREE.DirectionalLight(0xffffff, 0.45);
-    camera.add(sun);
-    sun.position.set(-1, 1, 0.5);
-    sun.target.position.set(0, 0, -1);
-    camera.add(sun.target);
-    scene.add(camera);
-
-    const renderer = new THREE.WebGLRenderer({antialias: true});
-    renderer.setPixelRatio(window.devicePixelRatio);
-    place.append(renderer.domElement);
-    const controls = new THREE.OrbitControls(camera, renderer.domElement);
-    const render = () => renderer.render(scene, camera);
-    const resize = () => {
-      camera.aspect = place.clientWidth / place.clientHeight;
-      camera.updateProjectionMatrix();
-      renderer.setSize(place.clientWidth, place.clientHeight);
-      render();
-    };
-    controls.addEventListener('change', render);
-    window.addEventListener('resize', resize);
+    scene.add(surface.mesh, makeEdges());
     const choice = document.getElementById('colours');
     const recolour = () => { paint(surface, choice.value); describeColours(choice.value); };
-    choice.addEventListener('change', () => { recolour(); render(); });
     recolour();
-    resize();
-    pickWithClicks(renderer.domElement, camera, surface);
-    controls.update();
+    const {camera, canvas, render} = turntable(place, scene, up, radius);
+    choice.addEventListener('change', () => { recolour(); render(); });
+    pickWithClicks(canvas, camera, surface);
   }
 
   // A click, not the end of a turn.
@@ -154,8 +122,7 @@
 
   try {
     start();
-  } catch (error) {  // most likely no WebGL
-    place.style.height = 'auto';
-    place.textContent = 'The model cannot be drawn here: ' + error.message;
+  } catch (error) {
+    cannotDraw(place, error);
   }
 })();

@@ -3,6 +3,7 @@
 
 #include <vtkImageData.h>
 #include <vtkJPEGReader.h>
+#include <vtkJPEGWriter.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
 #include <vtkPNGReader.h>
@@ -95,6 +96,25 @@ RgbImage turnedUpright(const RgbImage& stored, int orientation) {
   return image;
 }
 
+/// The bytes of a file as one of VTK's writers makes it.
+template <typename Writer>
+std::string encode(Writer& writer, const RgbImage& image) {
+  vtkNew<vtkImageData> data;
+  data->SetDimensions(image.width, image.height, 1);
+  data->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  for (int y = 0; y < image.height; ++y) {
+    const auto* const row = image.at(0, y);
+    std::copy(row, row + 3 * image.width,
+              static_cast<unsigned char*>(data->GetScalarPointer(0, image.height - 1 - y, 0)));
+  }
+  writer.SetInputData(data);
+  writer.WriteToMemoryOn();
+  writer.Write();
+  vtkUnsignedCharArray* const bytes = writer.GetResult();
+  return {reinterpret_cast<const char*>(bytes->GetPointer(0)),
+          static_cast<std::size_t>(bytes->GetNumberOfTuples())};
+}
+
 }  // namespace
 
 RgbImage readImage(const std::string& path) {
@@ -113,22 +133,17 @@ RgbImage readImage(const Photo& photo) {
 }
 
 void writePng(const std::string& path, const RgbImage& image) {
-  vtkNew<vtkImageData> data;
-  data->SetDimensions(image.width, image.height, 1);
-  data->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  for (int y = 0; y < image.height; ++y) {
-    const auto* const row = image.at(0, y);
-    std::copy(row, row + 3 * image.width,
-              static_cast<unsigned char*>(data->GetScalarPointer(0, image.height - 1 - y, 0)));
-  }
   vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(data);
-  writer->WriteToMemoryOn();
-  writer->Write();
-  vtkUnsignedCharArray* const png = writer->GetResult();
   OutputFile file(path);
-  file.write(png->GetPointer(0), static_cast<std::size_t>(png->GetNumberOfTuples()));
+  file.write(encode(*writer, image));
   file.commit();
+}
+
+std::string encodeJpeg(const RgbImage& image) {
+  constexpr int kQuality = 92;  // differs from the image by less than a photo's noise
+  vtkNew<vtkJPEGWriter> writer;
+  writer->SetQuality(kQuality);
+  return encode(*writer, image);
 }
 
 }  // namespace storey::io

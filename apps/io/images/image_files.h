@@ -22,4 +22,7 @@ RgbImage readImage(const Photo& photo);
 /// Writes a PNG. \throws Failure (CannotCreate, IoError)
 void writePng(const std::string& path, const RgbImage& image);
 
+/// The bytes of a JPEG file.
+std::string encodeJpeg(const RgbImage& image);
+
 }  // namespace storey::io

@@ -20,8 +20,7 @@ pcl::PolygonMesh toPolygonMesh(const PolyhedralModel& model,
                                const Eigen::Isometry3d& transform = Eigen::Isometry3d::Identity());
 
 /// The same with a material and an image for each face, which `pcl::io::saveOBJFile` writes.
-/// \param textures of the model's faces, in their order, as `textureFacades(facadesOf(model), ...)`
-///        gives them
+/// \param textures of the model's faces, in their order, as `FacadeTexturing` gives them
 /// \param images   names of the image files to refer to, parallel to `textures`; saving the images
 ///        is left to the caller
 /// \return empty, after a PCL_ERROR, if the numbers of faces, textures and images differ

@@ -15,7 +15,7 @@ Repetition findRepetition(const FacadeTexture& texture);
 
 /// Gives the unseen texels of a facade the colour of a seen one a whole number of periods away, the
 /// nearest that there is; where there is none, a smooth surface through the texels about the gap.
-/// The states stay what they are.
+/// They become `Filled`; nothing changes if nothing was seen.
 void fillUnseen(FacadeTexture& texture);
 
 }  // namespace storey::detail
