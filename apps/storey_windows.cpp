@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Windows of a facade from photos, cut into a model.
-#include <algorithm>
-#include <array>
-#include <cstdio>
+// Windows from photos, cut into a model.
+#include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/command_line.h"
@@ -12,6 +12,8 @@
 #include "io/cameras/camera_set.h"
 #include "io/failure.h"
 #include "io/images/image_files.h"
+#include "windows/window_edit.h"
+#include "windows/window_list.h"
 #include "windows/windowed_model.h"
 
 namespace {
@@ -21,64 +23,116 @@ namespace exports = storey::exports;
 namespace io = storey::io;
 namespace windows = storey::windows;
 
+enum class Form { None, Mark, Auto, Replay };
+
 struct Request {
   std::string model;
   std::string cameras;
   std::string images;
-  std::string view;
-  std::array<Eigen::Vector2d, 4> quad;
+  Form form = Form::None;
+  windows::FacadeEdit mark;  // of form Mark
+  std::string edit_file;     // of form Replay
   std::optional<double> depth;
   std::string output;
   const exports::Format* format = nullptr;
 };
 
+/// What is found on a facade, and what is to become of it.
+using Found = std::pair<windows::FacadeEdit, storey::WindowGrid>;
+
+void chooseForm(const cli::CommandLine& line, bool automatic, const std::string& quad, Request& r) {
+  const bool marked = !r.mark.view.empty() || !quad.empty();
+  const int forms = (marked ? 1 : 0) + (automatic ? 1 : 0) + (r.edit_file.empty() ? 0 : 1);
+  if (forms != 1) line.fail("either --view with --quad, or --auto, or --edit-file is needed");
+  r.form = marked ? Form::Mark : (automatic ? Form::Auto : Form::Replay);
+  if (r.form == Form::Replay && r.depth) line.fail("--depth is in the file of --edit-file");
+  if (r.form != Form::Mark) return;
+  const auto corners = windows::parseQuad(quad);
+  if (r.mark.view.empty()) line.fail("--quad needs the photo that it is on, --view");
+  if (!corners) line.fail("--quad is to be eight numbers, x1,y1,...,x4,y4");
+  r.mark.quad = *corners;
+  r.mark.depth = r.depth;
+}
+
 bool parse(int argc, char** argv, Request& r) {
-  cli::CommandLine line("storey_windows",
-                        {"MODEL CAMERAS IMAGES --view NAME --quad X1,Y1,...,X4,Y4 -o OUT"},
-                        "Finds all windows of a facade from a quadrilateral around one of them on "
-                        "a photo, and cuts them into the closed model (.ply, .obj). Doubtful ones "
-                        "are listed but not cut.");
+  cli::CommandLine line(
+      "storey_windows",
+      {"MODEL CAMERAS IMAGES --view NAME --quad X1,Y1,...,X4,Y4 -o OUT",
+       "MODEL CAMERAS IMAGES --auto -o OUT", "MODEL CAMERAS IMAGES --edit-file FILE -o OUT"},
+      "Finds windows in photos and cuts them into the closed model (.ply, .obj): "
+      "those of a facade from a quadrilateral around one of them, or those of "
+      "all facades on which they repeat. windows.json beside OUT lists them; "
+      "doubtful ones are not cut.");
   std::string quad;
   double depth = 0.0;
+  bool automatic = false;
   line.argument("model", r.model, "closed model, .ply or .obj");
   line.argument("cameras", r.cameras,
                 "cameras in the model's coordinates: COLMAP, Bundler or PMVS");
   line.argument("images", r.images, "folder of the photos");
-  line.text("view", r.view, "the photo that is drawn on: its name, or its number in CAMERAS");
+  line.text("view", r.mark.view, "the photo that is drawn on: its name, or its number in CAMERAS");
   line.text("quad", quad, "corners of the quadrilateral, pixels from the upper left corner");
+  line.flag("auto", automatic, "find what repeats on each wall, without any mark");
+  line.text("edit-file", r.edit_file, "do again what was done in the editor (windows_edit.json)");
   line.number("depth", depth, cli::kAnyNumber,
               "of the panes behind the wall, negative: before it, in the model's unit; not given: "
               "what the photos show, 0 being painted windows, which are not cut");
   line.text("output,o", r.output, "model to write: .ply, .obj, .city.json, .glb, .stl or .vtk");
   if (!line.parse(argc, argv)) return false;
-  if (r.images.empty() || r.view.empty() || quad.empty() || r.output.empty()) {
-    line.fail("a model, its cameras, the folder of the images, --view, --quad and -o are needed");
+  if (r.images.empty() || r.output.empty()) {
+    line.fail("a model, its cameras, the folder of the images, and -o are needed");
   }
-  const auto corners = windows::parseQuad(quad);
-  if (!corners) line.fail("--quad is to be eight numbers, x1,y1,...,x4,y4");
-  r.quad = *corners;
   if (line.given("depth")) r.depth = depth;
+  chooseForm(line, automatic, quad, r);
   r.format = exports::formatOfFile(r.output);
   if (r.format == nullptr) line.fail("the extension of -o " + r.output + " is of no known format");
   return true;
 }
 
-void print(const windows::CutWindows& found) {
-  const storey::WindowGrid& grid = found.grid;
-  std::printf("%6s %6s %10s %10s %10s %10s %10s %s\n", "row", "column", "left", "foot", "width",
-              "height", "confidence", "");
-  for (std::size_t i = 0; i < grid.windows.size(); ++i) {
-    const storey::FacadeWindow& w = grid.windows[i];
-    const Eigen::Vector2d size = w.max - w.min;
-    std::printf("%6d %6d %10.4g %10.4g %10.4g %10.4g %10.2f %s\n", w.row, w.column, w.min.x(),
-                w.min.y(), size.x(), size.y(), w.confidence,
-                found.cut[i] ? "cut" : (w.doubtful ? "doubtful" : "not cut"));
+std::vector<storey::FacadePhoto> readPhotos(const io::CameraSet& cameras) {
+  std::vector<storey::FacadePhoto> photos;
+  for (const io::Photo& photo : cameras.photos) {
+    photos.push_back({photo.camera, io::readImage(photo)});
   }
-  std::printf(
-      "facade %zu, %zu photos: %zu windows, %td cut, depth %.4g%s\n", grid.facade,
-      grid.photos.size(), grid.windows.size(), std::count(found.cut.begin(), found.cut.end(), true),
-      found.depth,
-      found.depth == 0.0 ? (grid.depth_known ? " (painted)" : " (not known: --depth)") : "");
+  return photos;
+}
+
+std::vector<Found> findAll(const Request& request, const windows::WindowSearch& search) {
+  std::vector<Found> found = search.findAll();
+  if (found.empty()) {
+    throw io::Failure(io::BadInput, request.model, "shows no windows that repeat in the photos",
+                      "mark one with --view and --quad");
+  }
+  for (Found& facade : found) facade.first.depth = request.depth;
+  return found;
+}
+
+/// A grid for each facade of an edit.
+/// \param path of what the edit is from, for messages
+std::vector<Found> find(const std::string& path, const windows::WindowEdit& edit,
+                        const windows::WindowSearch& search) {
+  std::vector<Found> found;
+  for (const windows::FacadeEdit& facade : edit.facades) {
+    storey::WindowGrid grid = search.find(facade);
+    const std::string of = facade.isMarked() ? "view " + facade.view : "its facade";
+    if (!grid.problem.empty()) {
+      throw io::Failure(io::BadInput, path, of + ": " + grid.problem,
+                        "draw the quadrilateral around a window on one wall");
+    }
+    try {
+      found.emplace_back(facade, windows::changed(std::move(grid), facade.changes));
+    } catch (const std::invalid_argument& error) {
+      throw io::Failure(io::BadInput, path, of + ": " + error.what(),
+                        "edit the model and photos that it was made with");
+    }
+  }
+  return found;
+}
+
+std::vector<Found> find(const Request& request, const windows::WindowSearch& search) {
+  if (request.form == Form::Auto) return findAll(request, search);
+  if (request.form == Form::Mark) return find(request.images, {{request.mark}}, search);
+  return find(request.edit_file, windows::readEdit(request.edit_file), search);
 }
 
 int run(int argc, char** argv) {
@@ -87,20 +141,15 @@ int run(int argc, char** argv) {
   windows::SolidModel solid = windows::readSolid(request.model);
   io::CameraSet cameras = io::readCameras(request.cameras);
   io::findImages(request.images, cameras);
-  storey::WindowMark mark;
-  mark.photo = windows::findView(request.cameras, cameras, request.view);
-  mark.corners = request.quad;
-  std::vector<storey::FacadePhoto> photos;
-  for (const io::Photo& photo : cameras.photos) {
-    photos.push_back({photo.camera, io::readImage(photo)});
+  const windows::WindowSearch search(solid, request.cameras, cameras, readPhotos(cameras));
+  std::vector<windows::CutWindows> facades;
+  for (Found& found : find(request, search)) {
+    facades.push_back(windows::cutInto(solid, std::move(found.second), found.first.depth));
   }
-  const windows::CutWindows found = windows::addWindows(photos, mark, request.depth, solid);
-  if (!found.grid.problem.empty()) {
-    throw io::Failure(io::BadInput, cameras.photos[mark.photo].image, found.grid.problem,
-                      "draw the quadrilateral around a window on one wall");
-  }
+  const auto list = std::filesystem::path(request.output).replace_filename("windows.json");
   request.format->write(request.output, {solid.model, solid.to_file});
-  print(found);
+  windows::writeWindows(list.string(), facades, cameras, solid.to_file);
+  windows::printWindows(facades);
   return io::Ok;
 }
 

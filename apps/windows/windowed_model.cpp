@@ -4,9 +4,11 @@
 #include <storey/surface/model_check.h>
 #include <storey/surface/window_cutting.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 
 #include "io/failure.h"
 #include "io/model_io.h"
@@ -74,13 +76,55 @@ std::optional<std::array<Eigen::Vector2d, 4>> parseQuad(const std::string& text)
   return corners;
 }
 
-CutWindows addWindows(const std::vector<FacadePhoto>& photos, const WindowMark& mark,
-                      const std::optional<double>& depth, SolidModel& solid) {
+WindowSearch::WindowSearch(const SolidModel& solid, std::string cameras_path,
+                           const io::CameraSet& cameras, const std::vector<FacadePhoto>& photos)
+    : cameras_path_(std::move(cameras_path)), cameras_(cameras) {
   const std::vector<FacadePhoto> upright = inFrame(photos, solid.to_file);
+  for (const FacadePhoto& photo : upright) cameras_in_frame_.push_back(photo.camera);
   std::vector<Facade> facades = facadesOf(solid.model);
   texture::turnToCameras(upright, facades);
+  detection_ = std::make_unique<WindowDetection>(std::move(facades), upright);
+}
+
+WindowGrid WindowSearch::find(const FacadeEdit& facade) const {
+  if (!facade.isMarked()) return detection_->propose(facade.facade);
+  return detection_->detect({findView(cameras_path_, cameras_, facade.view), facade.quad});
+}
+
+std::vector<std::pair<FacadeEdit, WindowGrid>> WindowSearch::findAll() const {
+  std::vector<std::pair<FacadeEdit, WindowGrid>> all;
+  for (std::size_t f = 0; f < detection_->facades().size(); ++f) {
+    FacadeEdit facade;
+    facade.facade = f;
+    WindowGrid grid = find(facade);
+    if (!grid.windows.empty()) all.emplace_back(facade, std::move(grid));
+  }
+  return all;
+}
+
+WindowGrid changed(WindowGrid grid, const std::vector<WindowChange>& changes) {
+  for (const WindowChange& change : changes) {
+    const auto window = std::find_if(
+        grid.windows.begin(), grid.windows.end(), [&change](const FacadeWindow& candidate) {
+          return candidate.row == change.row && candidate.column == change.column;
+        });
+    if (window == grid.windows.end()) {
+      throw std::invalid_argument("no window was found in row " + std::to_string(change.row) +
+                                  ", column " + std::to_string(change.column));
+    }
+    if (change.rectangle) {
+      window->min = change.rectangle->min();
+      window->max = change.rectangle->max();
+    }
+    if (change.keep) window->doubtful = false;
+    if (change.keep == false) grid.windows.erase(window);
+  }
+  return grid;
+}
+
+CutWindows cutInto(SolidModel& solid, WindowGrid grid, const std::optional<double>& depth) {
   CutWindows result;
-  result.grid = detectWindows(facades, upright, mark);
+  result.grid = std::move(grid);
   result.depth = depth.value_or(result.grid.depth);
   result.cut.assign(result.grid.windows.size(), false);
   std::vector<FacadeWindow> clear;

@@ -6,11 +6,14 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/cameras/camera_set.h"
+#include "windows/window_edit.h"
 
 namespace storey::windows {
 
@@ -31,6 +34,34 @@ std::size_t findView(const std::string& path, const io::CameraSet& cameras,
 /// Four corners from "x1,y1,...,x4,y4"; nothing if it is not that.
 std::optional<std::array<Eigen::Vector2d, 4>> parseQuad(const std::string& text);
 
+/// The facades of a model and what its photos show of them, to find windows on.
+class WindowSearch {
+ public:
+  /// \param cameras_path of the file that `cameras` are from, for messages
+  WindowSearch(const SolidModel& solid, std::string cameras_path, const io::CameraSet& cameras,
+               const std::vector<FacadePhoto>& photos);
+
+  /// What is found by a mark or without one, changes left aside.
+  /// \throws io::Failure (BadInput) if there is no such view; what else is wrong is the `problem`
+  WindowGrid find(const FacadeEdit& facade) const;
+
+  /// Each wall on which windows repeat, as it is found without a mark.
+  std::vector<std::pair<FacadeEdit, WindowGrid>> findAll() const;
+
+  /// Photos and cameras in the frame that the facades are in.
+  const Camera& camera(std::size_t photo) const { return cameras_in_frame_[photo]; }
+
+ private:
+  std::string cameras_path_;
+  const io::CameraSet& cameras_;
+  std::vector<Camera> cameras_in_frame_;
+  std::unique_ptr<WindowDetection> detection_;
+};
+
+/// A grid with the changes made: windows moved, left out, or no longer doubtful.
+/// \throws std::invalid_argument if one is of a window that there is not
+WindowGrid changed(WindowGrid grid, const std::vector<WindowChange>& changes);
+
 /// Windows found, and which of them were cut.
 struct CutWindows {
   WindowGrid grid;
@@ -38,9 +69,8 @@ struct CutWindows {
   std::vector<bool> cut;
 };
 
-/// Finds windows and cuts those that are not doubtful.
+/// Cuts the windows that are not doubtful into the model.
 /// \param depth of the panes; nothing: what the photos show
-CutWindows addWindows(const std::vector<FacadePhoto>& photos, const WindowMark& mark,
-                      const std::optional<double>& depth, SolidModel& solid);
+CutWindows cutInto(SolidModel& solid, WindowGrid grid, const std::optional<double>& depth);
 
 }  // namespace storey::windows
