@@ -2,7 +2,6 @@
 // Windows from photos, cut into a model.
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "io/cameras/camera_set.h"
 #include "io/failure.h"
 #include "io/images/image_files.h"
+#include "windows/editor_window.h"
 #include "windows/window_edit.h"
 #include "windows/window_list.h"
 #include "windows/windowed_model.h"
@@ -23,7 +23,7 @@ namespace exports = storey::exports;
 namespace io = storey::io;
 namespace windows = storey::windows;
 
-enum class Form { None, Mark, Auto, Replay };
+enum class Form { None, Mark, Auto, Replay, Edit };
 
 struct Request {
   std::string model;
@@ -31,21 +31,23 @@ struct Request {
   std::string images;
   Form form = Form::None;
   windows::FacadeEdit mark;  // of form Mark
-  std::string edit_file;     // of form Replay
+  std::string edit_file;     // of form Replay; of form Edit, what to go on with
   std::optional<double> depth;
   std::string output;
   const exports::Format* format = nullptr;
 };
 
-/// What is found on a facade, and what is to become of it.
-using Found = std::pair<windows::FacadeEdit, storey::WindowGrid>;
-
-void chooseForm(const cli::CommandLine& line, bool automatic, const std::string& quad, Request& r) {
+void chooseForm(const cli::CommandLine& line, bool automatic, bool edit, const std::string& quad,
+                Request& r) {
   const bool marked = !r.mark.view.empty() || !quad.empty();
-  const int forms = (marked ? 1 : 0) + (automatic ? 1 : 0) + (r.edit_file.empty() ? 0 : 1);
-  if (forms != 1) line.fail("either --view with --quad, or --auto, or --edit-file is needed");
-  r.form = marked ? Form::Mark : (automatic ? Form::Auto : Form::Replay);
-  if (r.form == Form::Replay && r.depth) line.fail("--depth is in the file of --edit-file");
+  const bool edited = edit || !r.edit_file.empty();
+  if ((marked ? 1 : 0) + (automatic ? 1 : 0) + (edited ? 1 : 0) != 1) {
+    line.fail("one of --view with --quad, --auto, --edit or --edit-file is needed");
+  }
+  if (edited && r.depth) line.fail("--depth goes with --quad or --auto; edits have their own");
+  r.form = edit ? Form::Edit : Form::Replay;
+  if (automatic) r.form = Form::Auto;
+  if (marked) r.form = Form::Mark;
   if (r.form != Form::Mark) return;
   const auto corners = windows::parseQuad(quad);
   if (r.mark.view.empty()) line.fail("--quad needs the photo that it is on, --view");
@@ -66,6 +68,7 @@ bool parse(int argc, char** argv, Request& r) {
   std::string quad;
   double depth = 0.0;
   bool automatic = false;
+  bool edit = false;
   line.argument("model", r.model, "closed model, .ply or .obj");
   line.argument("cameras", r.cameras,
                 "cameras in the model's coordinates: COLMAP, Bundler or PMVS");
@@ -73,7 +76,9 @@ bool parse(int argc, char** argv, Request& r) {
   line.text("view", r.mark.view, "the photo that is drawn on: its name, or its number in CAMERAS");
   line.text("quad", quad, "corners of the quadrilateral, pixels from the upper left corner");
   line.flag("auto", automatic, "find what repeats on each wall, without any mark");
-  line.text("edit-file", r.edit_file, "do again what was done in the editor (windows_edit.json)");
+  line.flag("edit", edit, "find and change windows in an editor");
+  line.text("edit-file", r.edit_file,
+            "do again what was done in the editor (windows_edit.json); with --edit: go on with it");
   line.number("depth", depth, cli::kAnyNumber,
               "of the panes behind the wall, negative: before it, in the model's unit; not given: "
               "what the photos show, 0 being painted windows, which are not cut");
@@ -83,7 +88,7 @@ bool parse(int argc, char** argv, Request& r) {
     line.fail("a model, its cameras, the folder of the images, and -o are needed");
   }
   if (line.given("depth")) r.depth = depth;
-  chooseForm(line, automatic, quad, r);
+  chooseForm(line, automatic, edit, quad, r);
   r.format = exports::formatOfFile(r.output);
   if (r.format == nullptr) line.fail("the extension of -o " + r.output + " is of no known format");
   return true;
@@ -97,59 +102,94 @@ std::vector<storey::FacadePhoto> readPhotos(const io::CameraSet& cameras) {
   return photos;
 }
 
-std::vector<Found> findAll(const Request& request, const windows::WindowSearch& search) {
-  std::vector<Found> found = search.findAll();
+/// What the program has read.
+struct Inputs {
+  windows::SolidModel solid;
+  io::CameraSet cameras;
+  std::vector<storey::FacadePhoto> photos;
+};
+
+Inputs read(const Request& request) {
+  Inputs inputs;
+  inputs.solid = windows::readSolid(request.model);
+  inputs.cameras = io::readCameras(request.cameras);
+  io::findImages(request.images, inputs.cameras);
+  inputs.photos = readPhotos(inputs.cameras);
+  return inputs;
+}
+
+std::string beside(const std::string& output, const char* name) {
+  return std::filesystem::path(output).replace_filename(name).string();
+}
+
+std::vector<windows::FoundFacade> findAll(const Request& request,
+                                          const windows::WindowSearch& search) {
+  std::vector<windows::FoundFacade> found = search.findAll();
   if (found.empty()) {
     throw io::Failure(io::BadInput, request.model, "shows no windows that repeat in the photos",
                       "mark one with --view and --quad");
   }
-  for (Found& facade : found) facade.first.depth = request.depth;
+  for (windows::FoundFacade& facade : found) facade.edit.depth = request.depth;
   return found;
 }
 
-/// A grid for each facade of an edit.
-/// \param path of what the edit is from, for messages
-std::vector<Found> find(const std::string& path, const windows::WindowEdit& edit,
-                        const windows::WindowSearch& search) {
-  std::vector<Found> found;
-  for (const windows::FacadeEdit& facade : edit.facades) {
-    storey::WindowGrid grid = search.find(facade);
-    const std::string of = facade.isMarked() ? "view " + facade.view : "its facade";
-    if (!grid.problem.empty()) {
-      throw io::Failure(io::BadInput, path, of + ": " + grid.problem,
-                        "draw the quadrilateral around a window on one wall");
-    }
-    try {
-      found.emplace_back(facade, windows::changed(std::move(grid), facade.changes));
-    } catch (const std::invalid_argument& error) {
-      throw io::Failure(io::BadInput, path, of + ": " + error.what(),
-                        "edit the model and photos that it was made with");
-    }
+/// Cuts what is found into a copy of the model and writes all files.
+std::vector<windows::CutWindows> write(const Request& request, const Inputs& inputs,
+                                       const std::vector<windows::FoundFacade>& found) {
+  windows::SolidModel solid = inputs.solid;
+  std::vector<windows::CutWindows> facades;
+  for (const windows::FoundFacade& facade : found) {
+    facades.push_back(windows::cutInto(solid, facade));
   }
-  return found;
+  request.format->write(request.output, {solid.model, solid.to_file});
+  windows::writeWindows(beside(request.output, "windows.json"), facades, inputs.cameras,
+                        solid.to_file);
+  return facades;
 }
 
-std::vector<Found> find(const Request& request, const windows::WindowSearch& search) {
-  if (request.form == Form::Auto) return findAll(request, search);
-  if (request.form == Form::Mark) return find(request.images, {{request.mark}}, search);
-  return find(request.edit_file, windows::readEdit(request.edit_file), search);
+void edit(const Request& request, const Inputs& inputs, const windows::WindowSearch& search) {
+  std::vector<windows::EditorPhoto> photos;
+  for (std::size_t k = 0; k < inputs.cameras.photos.size(); ++k) {
+    photos.push_back({windows::viewName(inputs.cameras.photos[k]), search.camera(k)});
+  }
+  std::vector<windows::FoundFacade> start;
+  if (!request.edit_file.empty()) {
+    start = search.findEach(request.edit_file, windows::readEdit(request.edit_file));
+  }
+  const windows::WindowFinder finder = {
+      [&search](const windows::FacadeEdit& facade) { return search.find(facade); },
+      [&search] { return search.findAll(); }};
+  const auto save = [&](const windows::WindowEdit& made) {
+    const std::string record = beside(request.output, "windows_edit.json");
+    windows::writeEdit(record, made);  // first: whatever else fails, it is not lost
+    write(request, inputs, search.findEach(record, made));
+    return "written: " + request.output + ", " + record;
+  };
+  windows::EditorWindow(windows::WindowEditor(std::move(photos), finder, std::move(start)),
+                        inputs.photos, save, {})
+      .run();
 }
 
 int run(int argc, char** argv) {
   Request request;
   if (!parse(argc, argv, request)) return io::Ok;
-  windows::SolidModel solid = windows::readSolid(request.model);
-  io::CameraSet cameras = io::readCameras(request.cameras);
-  io::findImages(request.images, cameras);
-  const windows::WindowSearch search(solid, request.cameras, cameras, readPhotos(cameras));
-  std::vector<windows::CutWindows> facades;
-  for (Found& found : find(request, search)) {
-    facades.push_back(windows::cutInto(solid, std::move(found.second), found.first.depth));
+  const Inputs inputs = read(request);
+  const windows::WindowSearch search(inputs.solid, request.cameras, inputs.cameras, inputs.photos);
+  std::vector<windows::FoundFacade> found;
+  switch (request.form) {
+    case Form::Edit:
+      edit(request, inputs, search);
+      return io::Ok;
+    case Form::Auto:
+      found = findAll(request, search);
+      break;
+    case Form::Replay:
+      found = search.findEach(request.edit_file, windows::readEdit(request.edit_file));
+      break;
+    default:
+      found = search.findEach(request.images, {{request.mark}});
   }
-  const auto list = std::filesystem::path(request.output).replace_filename("windows.json");
-  request.format->write(request.output, {solid.model, solid.to_file});
-  windows::writeWindows(list.string(), facades, cameras, solid.to_file);
-  windows::printWindows(facades);
+  windows::printWindows(write(request, inputs, found));
   return io::Ok;
 }
 

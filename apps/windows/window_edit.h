@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <storey/surface/window_detection.h>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
@@ -17,6 +19,10 @@ struct WindowChange {
   int column = 0;
   std::optional<bool> keep;  ///< cut it or leave it out; nothing: as its confidence says
   std::optional<Eigen::AlignedBox2d> rectangle;  ///< where it is instead, in its facade's frame
+
+  bool isOf(const FacadeWindow& window) const {
+    return row == window.row && column == window.column;
+  }
 };
 
 /// How the windows of one facade are found, and what is changed about them.

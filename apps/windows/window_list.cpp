@@ -14,16 +14,12 @@ using Json = nlohmann::ordered_json;
 
 Json toJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-std::string nameOf(const io::Photo& photo) {
-  return photo.name.empty() ? std::to_string(photo.index) : photo.name;
-}
-
 Json toJson(const CutWindows& facade, const io::CameraSet& cameras,
             const Eigen::Isometry3d& to_file) {
   const WindowGrid& grid = facade.grid;
   Json photos = Json::array();
   for (const int photo : grid.photos) {
-    photos.push_back(nameOf(cameras.photos[static_cast<std::size_t>(photo)]));
+    photos.push_back(viewName(cameras.photos[static_cast<std::size_t>(photo)]));
   }
   Json windows = Json::array();
   for (std::size_t i = 0; i < grid.windows.size(); ++i) {

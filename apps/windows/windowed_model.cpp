@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <stdexcept>
 
 #include "io/failure.h"
 #include "io/model_io.h"
@@ -63,6 +62,10 @@ std::size_t findView(const std::string& path, const io::CameraSet& cameras,
                     "see storey_cameras for their names");
 }
 
+std::string viewName(const io::Photo& photo) {
+  return photo.name.empty() ? std::to_string(photo.index) : photo.name;
+}
+
 std::optional<std::array<Eigen::Vector2d, 4>> parseQuad(const std::string& text) {
   std::array<Eigen::Vector2d, 4> corners;
   const char* at = text.c_str();
@@ -91,41 +94,48 @@ WindowGrid WindowSearch::find(const FacadeEdit& facade) const {
   return detection_->detect({findView(cameras_path_, cameras_, facade.view), facade.quad});
 }
 
-std::vector<std::pair<FacadeEdit, WindowGrid>> WindowSearch::findAll() const {
-  std::vector<std::pair<FacadeEdit, WindowGrid>> all;
+std::vector<FoundFacade> WindowSearch::findAll() const {
+  std::vector<FoundFacade> all;
   for (std::size_t f = 0; f < detection_->facades().size(); ++f) {
-    FacadeEdit facade;
-    facade.facade = f;
-    WindowGrid grid = find(facade);
-    if (!grid.windows.empty()) all.emplace_back(facade, std::move(grid));
+    FoundFacade facade;
+    facade.edit.facade = f;
+    facade.found = find(facade.edit);
+    if (!facade.found.windows.empty()) all.push_back(std::move(facade));
   }
   return all;
 }
 
-WindowGrid changed(WindowGrid grid, const std::vector<WindowChange>& changes) {
-  for (const WindowChange& change : changes) {
-    const auto window = std::find_if(
-        grid.windows.begin(), grid.windows.end(), [&change](const FacadeWindow& candidate) {
-          return candidate.row == change.row && candidate.column == change.column;
-        });
-    if (window == grid.windows.end()) {
-      throw std::invalid_argument("no window was found in row " + std::to_string(change.row) +
-                                  ", column " + std::to_string(change.column));
+std::vector<FoundFacade> WindowSearch::findEach(const std::string& path,
+                                                const WindowEdit& edit) const {
+  std::vector<FoundFacade> all;
+  for (const FacadeEdit& facade : edit.facades) {
+    const FoundFacade found = {facade, find(facade)};
+    const std::string of =
+        facade.isMarked() ? "view " + facade.view : "facade " + std::to_string(facade.facade);
+    if (!found.found.problem.empty()) {
+      throw io::Failure(io::BadInput, path, of + ": " + found.found.problem,
+                        "draw the quadrilateral around a window on one wall");
     }
-    if (change.rectangle) {
-      window->min = change.rectangle->min();
-      window->max = change.rectangle->max();
+    const auto& windows = found.found.windows;
+    for (const WindowChange& change : facade.changes) {
+      const bool is_there =
+          std::any_of(windows.begin(), windows.end(),
+                      [&change](const FacadeWindow& window) { return change.isOf(window); });
+      if (is_there) continue;
+      throw io::Failure(io::BadInput, path,
+                        of + ": no window was found in row " + std::to_string(change.row) +
+                            ", column " + std::to_string(change.column),
+                        "use the model and the photos that were edited");
     }
-    if (change.keep) window->doubtful = false;
-    if (change.keep == false) grid.windows.erase(window);
+    all.push_back(found);
   }
-  return grid;
+  return all;
 }
 
-CutWindows cutInto(SolidModel& solid, WindowGrid grid, const std::optional<double>& depth) {
+CutWindows cutInto(SolidModel& solid, const FoundFacade& facade) {
   CutWindows result;
-  result.grid = std::move(grid);
-  result.depth = depth.value_or(result.grid.depth);
+  result.grid = facade.changed();
+  result.depth = facade.depth();
   result.cut.assign(result.grid.windows.size(), false);
   std::vector<FacadeWindow> clear;
   std::vector<std::size_t> index;

@@ -9,11 +9,10 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "io/cameras/camera_set.h"
-#include "windows/window_edit.h"
+#include "windows/found_facade.h"
 
 namespace storey::windows {
 
@@ -31,6 +30,9 @@ SolidModel readSolid(const std::string& path);
 std::size_t findView(const std::string& path, const io::CameraSet& cameras,
                      const std::string& name);
 
+/// By what name `findView` finds a photo.
+std::string viewName(const io::Photo& photo);
+
 /// Four corners from "x1,y1,...,x4,y4"; nothing if it is not that.
 std::optional<std::array<Eigen::Vector2d, 4>> parseQuad(const std::string& text);
 
@@ -46,9 +48,14 @@ class WindowSearch {
   WindowGrid find(const FacadeEdit& facade) const;
 
   /// Each wall on which windows repeat, as it is found without a mark.
-  std::vector<std::pair<FacadeEdit, WindowGrid>> findAll() const;
+  std::vector<FoundFacade> findAll() const;
 
-  /// Photos and cameras in the frame that the facades are in.
+  /// What is found for each facade of an edit.
+  /// \param path of what the edit is from, for messages
+  /// \throws io::Failure (BadInput) if there is nothing, or not what is to be changed
+  std::vector<FoundFacade> findEach(const std::string& path, const WindowEdit& edit) const;
+
+  /// In the frame that the facades are in.
   const Camera& camera(std::size_t photo) const { return cameras_in_frame_[photo]; }
 
  private:
@@ -58,10 +65,6 @@ class WindowSearch {
   std::unique_ptr<WindowDetection> detection_;
 };
 
-/// A grid with the changes made: windows moved, left out, or no longer doubtful.
-/// \throws std::invalid_argument if one is of a window that there is not
-WindowGrid changed(WindowGrid grid, const std::vector<WindowChange>& changes);
-
 /// Windows found, and which of them were cut.
 struct CutWindows {
   WindowGrid grid;
@@ -69,8 +72,8 @@ struct CutWindows {
   std::vector<bool> cut;
 };
 
-/// Cuts the windows that are not doubtful into the model.
-/// \param depth of the panes; nothing: what the photos show
-CutWindows cutInto(SolidModel& solid, WindowGrid grid, const std::optional<double>& depth);
+/// Cuts the windows of a facade, as they are after its changes, into the model, but for those that
+/// are doubtful still.
+CutWindows cutInto(SolidModel& solid, const FoundFacade& facade);
 
 }  // namespace storey::windows
