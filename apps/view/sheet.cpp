@@ -50,6 +50,25 @@ void Sheet::add(const Points& corners, Colour colour, bool filled, double width)
   } else {
     data->SetLines(cells);
   }
+  add(data, colour, width);
+}
+
+void Sheet::segments(const std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>>& ends,
+                     Colour colour, double width) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (const auto& [a, b] : ends) {
+    cells->InsertNextCell(2);
+    cells->InsertCellPoint(points->InsertNextPoint(a.x(), a.y(), 0.0));
+    cells->InsertCellPoint(points->InsertNextPoint(b.x(), b.y(), 0.0));
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(cells);
+  add(data, colour, width);
+}
+
+void Sheet::add(vtkPolyData* data, Colour colour, double width) {
   vtkNew<vtkPolyDataMapper2D> mapper;
   mapper->SetInputData(data);
   vtkNew<vtkActor2D> actor;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vtkPolyData.h>
 #include <vtkRenderer.h>
 
 #include <Eigen/Core>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "view/drawing.h"
@@ -34,12 +36,16 @@ class Sheet {
   void line(const Points& corners, Colour colour, double width) {
     add(corners, colour, false, width);
   }
+  /// Separate lines, drawn as one.
+  void segments(const std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>>& ends, Colour colour,
+                double width);
   void rectangle(const Eigen::Vector2d& low, const Eigen::Vector2d& high, Colour colour) {
     polygon({low, {high.x(), low.y()}, high, {low.x(), high.y()}}, colour);
   }
 
  private:
   void add(const Points& corners, Colour colour, bool filled, double width);
+  void add(vtkPolyData* data, Colour colour, double width);
 
   vtkRenderer& renderer_;
   const Layout& layout_;

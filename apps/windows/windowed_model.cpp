@@ -4,6 +4,7 @@
 #include <storey/surface/model_check.h>
 #include <storey/surface/window_cutting.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -62,6 +63,10 @@ std::size_t findView(const std::string& path, const io::CameraSet& cameras,
                     "see storey_cameras for their names");
 }
 
+std::string viewName(const io::Photo& photo) {
+  return photo.name.empty() ? std::to_string(photo.index) : photo.name;
+}
+
 std::optional<std::array<Eigen::Vector2d, 4>> parseQuad(const std::string& text) {
   std::array<Eigen::Vector2d, 4> corners;
   const char* at = text.c_str();
@@ -75,14 +80,63 @@ std::optional<std::array<Eigen::Vector2d, 4>> parseQuad(const std::string& text)
   return corners;
 }
 
-CutWindows addWindows(const std::vector<FacadePhoto>& photos, const WindowMark& mark,
-                      const std::optional<double>& depth, SolidModel& solid) {
+WindowSearch::WindowSearch(const SolidModel& solid, std::string cameras_path,
+                           const io::CameraSet& cameras, const std::vector<FacadePhoto>& photos)
+    : cameras_path_(std::move(cameras_path)), cameras_(cameras) {
   const std::vector<FacadePhoto> upright = inFrame(photos, solid.to_file);
+  for (const FacadePhoto& photo : upright) cameras_in_frame_.push_back(photo.camera);
   std::vector<Facade> facades = facadesOf(solid.model);
   texture::turnToCameras(upright, facades);
+  detection_ = std::make_unique<WindowDetection>(std::move(facades), upright);
+}
+
+WindowGrid WindowSearch::find(const FacadeEdit& facade) const {
+  if (!facade.isMarked()) return detection_->propose(facade.facade);
+  return detection_->detect({findView(cameras_path_, cameras_, facade.view), facade.quad});
+}
+
+std::vector<FoundFacade> WindowSearch::findAll() const {
+  std::vector<FoundFacade> all;
+  for (std::size_t f = 0; f < detection_->facades().size(); ++f) {
+    FoundFacade facade;
+    facade.edit.facade = f;
+    facade.found = find(facade.edit);
+    if (!facade.found.windows.empty()) all.push_back(std::move(facade));
+  }
+  return all;
+}
+
+std::vector<FoundFacade> WindowSearch::findEach(const std::string& path,
+                                                const WindowEdit& edit) const {
+  std::vector<FoundFacade> all;
+  for (const FacadeEdit& facade : edit.facades) {
+    const FoundFacade found = {facade, find(facade)};
+    const std::string of =
+        facade.isMarked() ? "view " + facade.view : "facade " + std::to_string(facade.facade);
+    if (!found.found.problem.empty()) {
+      throw io::Failure(io::BadInput, path, of + ": " + found.found.problem,
+                        "draw the quadrilateral around a window on one wall");
+    }
+    const auto& windows = found.found.windows;
+    for (const WindowChange& change : facade.changes) {
+      const bool is_there =
+          std::any_of(windows.begin(), windows.end(),
+                      [&change](const FacadeWindow& window) { return change.isOf(window); });
+      if (is_there) continue;
+      throw io::Failure(io::BadInput, path,
+                        of + ": no window was found in row " + std::to_string(change.row) +
+                            ", column " + std::to_string(change.column),
+                        "use the model and the photos that were edited");
+    }
+    all.push_back(found);
+  }
+  return all;
+}
+
+CutWindows cutInto(SolidModel& solid, const FoundFacade& facade) {
   CutWindows result;
-  result.grid = detectWindows(facades, upright, mark);
-  result.depth = depth.value_or(result.grid.depth);
+  result.grid = facade.changed();
+  result.depth = facade.depth();
   result.cut.assign(result.grid.windows.size(), false);
   std::vector<FacadeWindow> clear;
   std::vector<std::size_t> index;

@@ -7,75 +7,13 @@
 #include <storey/surface/window_detection.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "synth/photos/rendered_building.h"
+#include "synth/photos/window_evaluation.h"
 
 namespace storey::synth {
 namespace {
-
-struct Score {
-  int found = 0;
-  int right = 0;
-  int painted = 0;
-  double worst_corner = 0.0;
-};
-
-double overlap(const FacadeWindow& a, const PaintedWindow& b) {
-  const Eigen::Vector2d common = (a.max.cwiseMin(b.max) - a.min.cwiseMax(b.min)).cwiseMax(0.0);
-  const double both = common.prod();
-  return both / ((a.max - a.min).prod() + (b.max - b.min).prod() - both);
-}
-
-Score scoreOf(const WindowGrid& grid, const std::vector<PaintedWindow>& truth) {
-  Score score;
-  score.painted = static_cast<int>(truth.size());
-  for (const FacadeWindow& window : grid.windows) {
-    if (window.doubtful) continue;
-    ++score.found;
-    for (const PaintedWindow& painted : truth) {
-      if (overlap(window, painted) < 0.5) continue;
-      ++score.right;
-      const double off = std::max((window.min - painted.min).cwiseAbs().maxCoeff(),
-                                  (window.max - painted.max).cwiseAbs().maxCoeff());
-      score.worst_corner = std::max(score.worst_corner, off / grid.texel);
-    }
-  }
-  return score;
-}
-
-/// A mark about the window of a facade that a photo shows largest, drawn loosely.
-bool markOn(const Rendered& rendered, std::size_t facade, WindowMark& mark) {
-  double largest = 0.0;
-  const FacadeFrame& frame = rendered.scene.frames()[facade];
-  for (std::size_t k = 0; k < rendered.photos.size(); ++k) {
-    for (const PaintedWindow& w : rendered.scene.paints()[facade].windows()) {
-      const Eigen::Vector2d slack = 0.05 * (w.max - w.min);
-      const Eigen::Vector2d a = w.min - slack;
-      const Eigen::Vector2d b = w.max + slack;
-      const std::array<Eigen::Vector2d, 4> ring = {a, Eigen::Vector2d(b.x(), a.y()), b,
-                                                   Eigen::Vector2d(a.x(), b.y())};
-      WindowMark here;
-      here.photo = k;
-      here.corners.fill(Eigen::Vector2d::Zero());
-      bool clear = true;
-      for (std::size_t i = 0; i < 4; ++i) {
-        const Eigen::Vector3d point = frame.point(ring[i].x(), ring[i].y());
-        clear = clear && rendered.scene.isClear(rendered.photos[k].camera, facade, point);
-        if (clear) here.corners[i] = *rendered.photos[k].camera.project(point);
-      }
-      if (!clear) continue;
-      const Eigen::Vector2d u = here.corners[2] - here.corners[0];
-      const Eigen::Vector2d v = here.corners[3] - here.corners[1];
-      const double area = std::abs(u.x() * v.y() - u.y() * v.x());
-      if (area <= largest) continue;
-      largest = area;
-      mark = here;
-    }
-  }
-  return largest > 0.0;
-}
 
 PhotoOptions tenViews(double recess) {
   PhotoOptions options;
@@ -86,23 +24,22 @@ PhotoOptions tenViews(double recess) {
   return options;
 }
 
-/// All walls with windows, one mark each. Windows that stand off are cut.
-void findAll(const char* name, double recess) {
+/// The windows of all walls, with a mark on each or without any. Those that stand off are cut.
+void findAll(const char* name, double recess, bool marked) {
   const Rendered rendered(name, tenViews(recess));
+  const std::vector<Camera> cameras = rendered.scene.placeCameras();
+  const WindowDetection detection(rendered.scene.facades(), rendered.photos);
   PolyhedralModel model = rendered.model;
-  Score all;
+  WindowMeasures measures;
   for (std::size_t f = 0; f < rendered.scene.facades().size(); ++f) {
-    const auto& truth = rendered.scene.paints()[f].windows();
-    WindowMark mark;
-    if (truth.empty() || !markOn(rendered, f, mark)) continue;
-    const WindowGrid grid = detectWindows(rendered.scene.facades(), rendered.photos, mark);
-    ASSERT_EQ(grid.problem, "");
+    const auto& painted = rendered.scene.paints()[f].windows();
+    const auto mark = markWindow(rendered.scene, cameras, f);
+    if (marked && !mark) continue;
+    const WindowGrid grid = marked ? detection.detect(*mark) : detection.propose(f);
     ASSERT_EQ(grid.facade, f);
-    const Score score = scoreOf(grid, truth);
-    all.found += score.found;
-    all.right += score.right;
-    all.painted += score.painted;
-    EXPECT_LE(score.worst_corner, 2.0) << name << ", facade " << f;
+    ASSERT_EQ(grid.problem.empty(), !painted.empty()) << grid.problem;
+    if (painted.empty()) continue;
+    compareWindows(grid, painted, measures);
     EXPECT_TRUE(grid.depth_known);
     EXPECT_NEAR(grid.depth, recess, 0.1 * recess) << name << ", facade " << f;
     std::vector<FacadeWindow> clear;
@@ -112,15 +49,29 @@ void findAll(const char* name, double recess) {
     const std::vector<bool> cut = cutWindows(model, f, grid.frame, clear, grid.depth);
     EXPECT_EQ(std::count(cut.begin(), cut.end(), recess > 0.0), std::ptrdiff_t(cut.size()));
   }
-  EXPECT_GE(all.painted, 60);
-  EXPECT_GE(all.right, 0.97 * all.found);
-  EXPECT_GE(all.right, 0.97 * all.painted);
+  EXPECT_GE(measures.painted, 60);
+  EXPECT_GE(measures.precision(), 0.97);
+  EXPECT_GE(measures.recall(), 0.97);
+  EXPECT_LE(*std::max_element(measures.corners.begin(), measures.corners.end()), 2.0);
   EXPECT_TRUE(checkModel(model).ok());
 }
 
-TEST(RenderedWindows, AreFoundWhereTheyAreSetBack) { findAll("box", 0.3); }
+TEST(RenderedWindows, AreFoundFromMarksWhereTheyAreSetBack) { findAll("box", 0.3, true); }
 
-TEST(RenderedWindows, AreFoundWhereTheyArePainted) { findAll("l_shape", 0.0); }
+TEST(RenderedWindows, AreFoundFromMarksWhereTheyArePainted) { findAll("l_shape", 0.0, true); }
+
+TEST(RenderedWindows, AreFoundByTheirRepetition) { findAll("overhang", 0.3, false); }
+
+TEST(RenderedWindows, AreNotFoundWhereThereAreNone) {
+  PhotoOptions blank = tenViews(0.0);
+  blank.window_pitch = 50.0;  // more than the walls have room for
+  const Rendered rendered("box", blank);
+  const WindowDetection detection(rendered.scene.facades(), rendered.photos);
+  for (std::size_t f = 0; f < rendered.scene.facades().size(); ++f) {
+    EXPECT_TRUE(rendered.scene.paints()[f].windows().empty());
+    EXPECT_NE(detection.propose(f).problem, "");
+  }
+}
 
 class WindowMarks : public ::testing::Test {
  protected:
@@ -152,7 +103,7 @@ class WindowMarks : public ::testing::Test {
   }
 
   std::string problemOf(const WindowMark& mark) const {
-    const WindowGrid grid = detectWindows(scene_.facades(), photos_, mark);
+    const WindowGrid grid = WindowDetection(scene_.facades(), photos_).detect(mark);
     EXPECT_TRUE(grid.windows.empty());
     return grid.problem;
   }

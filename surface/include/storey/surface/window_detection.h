@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,19 +47,46 @@ struct WindowDetectionOptions {
   double max_texels = 1e6;                              ///< most texels of the facade's images
 };
 
-/// All windows of a facade from a mark on one of them [Sui et al. 2016, Sec. 5].
+/// Windows of facades from photos of them [Sui et al. 2016, Sec. 5].
 ///
-/// The mark's photo tells the facade that lies under it; the facade's plane takes the mark to all
+/// A mark's photo tells the facade that lies under it; the facade's plane takes the mark to all
 /// photos that show the facade. In each, colours of the marked texels and of the rest of the facade
 /// are two mixtures of normal distributions; the photos' labels together are approximated by a grid
 /// of rectangles of rank one, whose pitch may vary and windows may be missing; from the grid, the
 /// mixtures are learnt again. The edges are then measured in each photo, and one width and height
 /// of all windows and the places of columns and rows found that fit them best, in pixels of the
 /// photos. The depth follows from the panes' parallax.
-/// \return no windows, and a `problem`, if the mark is no simple quadrilateral or does not lie on
-///         one wall
+///
+/// Without a mark, the first grid is the one whose windows tell most about the colours of the
+/// facade's image; the rest is the same.
 /// \par Determinism Same input, same output, whatever the number of threads.
-WindowGrid detectWindows(const std::vector<Facade>& facades, const std::vector<FacadePhoto>& photos,
-                         const WindowMark& mark, const WindowDetectionOptions& options = {});
+class WindowDetection {
+ public:
+  WindowDetection(std::vector<Facade> facades, const std::vector<FacadePhoto>& photos,
+                  const WindowDetectionOptions& options = {});
+  ~WindowDetection();
+
+  const std::vector<Facade>& facades() const { return facades_; }
+
+  /// All windows like the marked one, on its facade. None, and a `problem`, if the mark is no
+  /// simple quadrilateral or does not lie on one wall.
+  WindowGrid detect(const WindowMark& mark) const;
+
+  /// The windows of a facade that repeat. None, and a `problem`, if the facade is no wall, less
+  /// than half of it is in the photos, or nothing on it repeats.
+  WindowGrid propose(std::size_t facade) const;
+
+ private:
+  struct Photos;  // made ready for sampling
+  struct Raster;  // of a facade, with what each photo shows of it
+
+  Raster rasterOf(std::size_t facade) const;
+  WindowGrid resultOf(const Raster& raster, std::vector<FacadeWindow> windows,
+                      const char* problem) const;
+
+  std::vector<Facade> facades_;
+  WindowDetectionOptions options_;
+  std::unique_ptr<const Photos> photos_;
+};
 
 }  // namespace storey
