@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "io/cloud_offset.h"
 #include "io/failure.h"
@@ -16,6 +17,7 @@ namespace {
 
 // The square of a distance between points closer to the origin than this fits into a float.
 constexpr double kMaxLocalCoordinate = 1e18;
+constexpr std::size_t kAhead = 16;  // points: time for memory to answer
 
 std::array<float, 3> unitNormal(const RawCloud& raw, std::size_t i) {
   if (!raw.has_normal_fields) return {0.0f, 0.0f, 0.0f};
@@ -38,23 +40,44 @@ void mergeNormal(const std::array<float, 3>& normal, pcl::PointNormal& point) {
   point.normal_z = normal[2];
 }
 
-void addPoint(const RawCloud& raw, std::size_t i, PointIndex& index, LoadedCloud& loaded) {
-  const Eigen::Vector3d local =
-      Eigen::Map<const Eigen::Vector3d>(&raw.positions[3 * i]) - loaded.offset;
-  if (!(local.cwiseAbs().maxCoeff() < kMaxLocalCoordinate)) {
-    ++loaded.dropped_non_finite;
-    return;
-  }
+/// The position in local coordinates; nothing if they are too far out.
+std::optional<PointIndex::Position> localPosition(const RawCloud& raw, std::size_t i,
+                                                  const Eigen::Vector3d& offset) {
+  const Eigen::Vector3d local = Eigen::Map<const Eigen::Vector3d>(&raw.positions[3 * i]) - offset;
+  if (!(local.cwiseAbs().maxCoeff() < kMaxLocalCoordinate)) return std::nullopt;
   const Eigen::Vector3f position = local.cast<float>() + Eigen::Vector3f::Zero();  // -0 becomes 0
+  return PointIndex::Position{position.x(), position.y(), position.z()};
+}
+
+void addPoint(const RawCloud& raw, std::size_t i, const PointIndex::Position& position,
+              PointIndex& index, LoadedCloud& loaded) {
   const std::array<float, 3> normal = unitNormal(raw, i);
-  const std::uint32_t known = index.findOrAdd({position.x(), position.y(), position.z()});
+  const std::uint32_t known = index.findOrAdd(position);
   if (known < loaded.cloud->size()) {
     ++loaded.collapsed_duplicates;
     mergeNormal(normal, (*loaded.cloud)[known]);
     return;
   }
-  loaded.cloud->points.emplace_back(position.x(), position.y(), position.z(), normal[0], normal[1],
+  loaded.cloud->points.emplace_back(position[0], position[1], position[2], normal[0], normal[1],
                                     normal[2]);
+}
+
+void addPoints(const RawCloud& raw, LoadedCloud& loaded) {
+  PointIndex index(raw.size());
+  std::array<std::optional<PointIndex::Position>, kAhead> ahead;
+  for (std::size_t i = 0; i < raw.size() + kAhead; ++i) {
+    std::optional<PointIndex::Position>& position = ahead[i % kAhead];
+    if (i >= kAhead) {
+      if (position) {
+        addPoint(raw, i - kAhead, *position, index, loaded);
+      } else {
+        ++loaded.dropped_non_finite;
+      }
+    }
+    if (i >= raw.size()) continue;
+    position = localPosition(raw, i, loaded.offset);
+    if (position) index.prefetch(*position);
+  }
 }
 
 void judgeNormals(const RawCloud& raw, LoadedCloud& loaded) {
@@ -87,8 +110,7 @@ LoadedCloud conditionCloud(const RawCloud& raw, const InputFile& file) {
   loaded.declared = raw.declared;
   loaded.offset = chooseOffset(raw.positions);
   loaded.cloud->points.reserve(raw.size());
-  PointIndex index(raw.size());
-  for (std::size_t i = 0; i < raw.size(); ++i) addPoint(raw, i, index, loaded);
+  addPoints(raw, loaded);
   loaded.cloud->width = static_cast<std::uint32_t>(loaded.cloud->points.size());
   loaded.cloud->height = 1;
   loaded.cloud->is_dense = true;

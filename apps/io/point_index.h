@@ -31,6 +31,11 @@ class PointIndex {
     positions_.reserve(capacity);
   }
 
+  /// Has the table ready for a position that will be asked for soon: it lies all over memory.
+  void prefetch(const Position& position) const {
+    __builtin_prefetch(&slots_[hash(position) & (slots_.size() - 1)]);
+  }
+
   /// The number of this position; a new one is added. Positions must be finite, and zeros positive.
   std::uint32_t findOrAdd(const Position& position) {
     const std::uint64_t mask = slots_.size() - 1;

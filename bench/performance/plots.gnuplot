@@ -34,5 +34,6 @@ set style fill solid 0.85 border rgb "white"
 set boxwidth 0.7
 set key outside right invert
 shares = csv."/performance_shares.csv"
+colors = "#1b7837 #7fbf7b #d9f0d3 #2166ac #92c5de #762a83 #c2a5cf #b2182b #f4a582 #888888"
 columns = int(system("head -n 1 ".shares." | tr ',' '\\n' | wc -l"))
-plot for [i=2:columns] shares using i:xtic(1) title columnheader(i)
+plot for [i=2:columns] shares using i:xtic(1) lc rgb word(colors, i - 1) title columnheader(i)

@@ -87,7 +87,8 @@ void Results::writeShares(const std::string& path) const {
   std::ofstream file(path);
   std::vector<std::string> stages;
   for (const std::string& work : order_) {
-    if (work.rfind(kStages, 0) == 0 && work != kTotal) stages.push_back(work);
+    if (work.rfind(kStages, 0) != 0 || work == kTotal) continue;
+    if (rows_.at(work).rbegin()->second.cpu > 0.0) stages.push_back(work);
   }
   file << "points";
   for (const std::string& stage : stages) file << ',' << stage.substr(std::string(kStages).size());

@@ -15,8 +15,8 @@ namespace {
 
 constexpr const char* kText = R"(## One thread and two
 
-Wall seconds of storey_reconstruct, up to a million points the best of three runs. With files: from the start of the program to its end, the cloud read and the model written. Without: the stages alone. The results
-are the same bytes.
+Wall seconds of storey_reconstruct, up to a million points the best of three runs. With files: from the start of the program
+to its end, the cloud read and the model written. Without: the stages alone. The results are the same bytes.
 
 )";
 

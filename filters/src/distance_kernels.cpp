@@ -85,11 +85,10 @@ std::size_t countWithin(const float* values, std::size_t n, float limit) {
   for (std::size_t i = 0; i < n; i += kLanes) {
     counts -= *reinterpret_cast<const Floats*>(values + i) <= limit;  // true is -1
   }
-  std::int32_t sum = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    sum += counts[lane];
-  }
-  return static_cast<std::size_t>(sum);
+  counts += __builtin_shuffle(counts, Ints{8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7});
+  counts += __builtin_shuffle(counts, Ints{4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11});
+  counts += __builtin_shuffle(counts, Ints{2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13});
+  return static_cast<std::size_t>(counts[0] + counts[1]);
 }
 
 STOREY_EACH_INSTRUCTION_SET

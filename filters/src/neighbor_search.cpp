@@ -11,8 +11,9 @@ namespace storey::detail {
 namespace {
 
 constexpr std::size_t kFanOut = BoundingBoxTree::kFanOut;
-constexpr std::size_t kGroup = 32;         // positions that share their candidates
-constexpr std::ptrdiff_t kRange = 64;      // groups in a task of a thread
+constexpr std::size_t kGroup = 64;         // positions that share their candidates, at most
+constexpr float kGroupSide = 2.5f;         // of a group's box, at most: reaches
+constexpr std::ptrdiff_t kRange = 2048;    // positions in a task of a thread
 constexpr float kReachMargin = 1.6f;       // of the squared reach of the group before
 constexpr std::size_t kLeavesForEach = 4;  // neighbour: more candidates than that are too many
 constexpr std::size_t kLeavesForAny = 16;
@@ -81,19 +82,21 @@ void choose(const NeighborSearch::Candidates& from, std::size_t count,
             const std::vector<std::uint32_t>& places, Padding padding,
             NeighborSearch::Candidates& chosen) {
   chosen.resize(count);
+  const std::uint32_t* const place = places.data();
+  float* const x = chosen.x.data();
+  float* const y = chosen.y.data();
+  float* const z = chosen.z.data();
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t place = places[i];
-    chosen.x[i] = from.x[place];
-    chosen.y[i] = from.y[place];
-    chosen.z[i] = from.z[place];
-    chosen.ids[i] = from.ids[place];
+    x[i] = from.x[place[i]];
+    y[i] = from.y[place[i]];
+    z[i] = from.z[place[i]];
+    chosen.ids[i] = from.ids[place[i]];
   }
-  chosen.count = count;
   const bool first = padding == Padding::First;
   for (std::size_t i = count; i < chosen.padded(); ++i) {
-    chosen.x[i] = first ? chosen.x[0] : kInfinity;
-    chosen.y[i] = first ? chosen.y[0] : 0.0f;
-    chosen.z[i] = first ? chosen.z[0] : 0.0f;
+    x[i] = first ? x[0] : kInfinity;
+    y[i] = first ? y[0] : 0.0f;
+    z[i] = first ? z[0] : 0.0f;
   }
 }
 
@@ -112,12 +115,16 @@ Moments Neighborhood::moments() const {
   return momentsAbout(x, y, z, paddedSize(count), first.data(), count);
 }
 
+std::size_t NeighborSearch::Candidates::padded() const { return paddedSize(count); }
+
 void NeighborSearch::Candidates::resize(std::size_t size) {
-  const std::size_t padded = paddedSize(size);
-  x.resize(padded);
-  y.resize(padded);
-  z.resize(padded);
-  ids.resize(padded);
+  count = size;
+  if (padded() > x.size()) {
+    x.resize(padded());
+    y.resize(padded());
+    z.resize(padded());
+    ids.resize(padded());
+  }
 }
 
 NeighborSearch::NeighborSearch(const Cloud::ConstPtr& positions)
@@ -129,73 +136,124 @@ Neighborhood NeighborSearch::nearest(pcl::index_t id, std::size_t k, Workspace& 
 
 void NeighborSearch::forEach(std::size_t k, const std::vector<char>& wanted, unsigned int threads,
                              const Visit& visit) const {
-  const std::size_t n = positions_->size();
-  k = std::min(k, n);
-  const auto num_groups = static_cast<std::ptrdiff_t>((n + kGroup - 1) / kGroup);
+  const auto n = static_cast<std::ptrdiff_t>(positions_->size());
+  k = std::min(k, positions_->size());
 #pragma omp parallel num_threads(threadsFor(threads))
   {
     Workspace workspace;
-#pragma omp for schedule(dynamic, kRange)
-    for (std::ptrdiff_t group = 0; group < num_groups; ++group) {
-      const std::size_t begin = static_cast<std::size_t>(group) * kGroup;
-      const std::size_t end = std::min(n, begin + kGroup);
-      if (std::find(wanted.begin() + static_cast<std::ptrdiff_t>(begin),
-                    wanted.begin() + static_cast<std::ptrdiff_t>(end),
-                    1) != wanted.begin() + static_cast<std::ptrdiff_t>(end)) {
-        visitRange(begin, end, k, wanted, workspace, visit);
+    Group group;
+#pragma omp for schedule(dynamic, 1)
+    for (std::ptrdiff_t begin = 0; begin < n; begin += kRange) {
+      const auto end = static_cast<std::size_t>(std::min(n, begin + kRange));
+      for (auto id = static_cast<std::size_t>(begin); id < end;) {
+        id = nextGroup(id, end, wanted, workspace, group);
+        visitGroup(group, k, workspace, visit);
       }
     }
   }
 }
 
-// Where the curve leaps, a group spans more than its neighbourhood and is divided.
-void NeighborSearch::visitRange(std::size_t begin, std::size_t end, std::size_t k,
-                                const std::vector<char>& wanted, Workspace& workspace,
-                                const Visit& visit) const {
-  const Box box = boxOf(begin, end);
-  if (!(workspace.squared_reach > 0.0f)) {
-    workspace.squared_reach = (box.high - box.low).square().sum();
-  }
-  const float squared_reach = kReachMargin * workspace.squared_reach;
-  const bool together = gather(box, std::sqrt(squared_reach), mostLeaves(k), workspace);
-  if (!together && end - begin > 1) {
-    const std::size_t middle = begin + (end - begin) / 2;
-    visitRange(begin, middle, k, wanted, workspace, visit);
-    visitRange(middle, end, k, wanted, workspace, visit);
-    return;
-  }
-  float sum = 0.0f;
-  float count = 0.0f;
-  struct Unproven {
-    std::size_t id;
-    float squared_reach;
-  };
-  std::array<Unproven, kGroup> unproven;
-  std::size_t num_unproven = 0;
-  for (std::size_t id = begin; id < end; ++id) {
+// Wanted positions that follow each other in a box not much larger than their neighbourhoods.
+// Larger ones would have too many candidates, and smaller ones too few positions to share them.
+std::size_t NeighborSearch::nextGroup(std::size_t id, std::size_t end,
+                                      const std::vector<char>& wanted, const Workspace& workspace,
+                                      Group& group) const {
+  const float side =
+      workspace.squared_reach > 0.0f ? kGroupSide * std::sqrt(workspace.squared_reach) : kInfinity;
+  const std::size_t most = workspace.squared_reach > 0.0f ? kGroup : kGroup / 4;
+  group.count = 0;
+  for (; id < end && group.count < most; ++id) {
     if (wanted[id] == 0) {
       continue;
     }
-    if (!together || workspace.candidates.count < k) {
-      unproven[num_unproven++] = {id, squared_reach};
-      continue;
+    Box box = boxOf(id, id + 1);
+    if (group.count > 0) {
+      box.low = box.low.min(group.box.low);
+      box.high = box.high.max(group.box.high);
+      if ((box.high - box.low).maxCoeff() > side) {
+        break;
+      }
     }
+    group.box = box;
+    group.ids[group.count++] = static_cast<std::uint32_t>(id);
+  }
+  return id;
+}
+
+void NeighborSearch::visitGroup(Group& group, std::size_t k, Workspace& workspace,
+                                const Visit& visit) const {
+  if (group.count == 0) {
+    return;
+  }
+  if (!(workspace.squared_reach > 0.0f)) {
+    workspace.squared_reach = (group.box.high - group.box.low).square().sum();
+  }
+  if (!visitTogether(group, kReachMargin * workspace.squared_reach, k, workspace, visit)) {
+    divideGroup(group, k, workspace, visit);
+    return;
+  }
+  // Of those whose neighbours may lie further out it is known now how far at most.
+  const float usual = workspace.squared_reach;
+  if (group.count > 1) {
+    visitTogether(group, group.squared_reach * (1.0f + 4.0f * kRounding), k, workspace, visit);
+  }
+  for (std::size_t i = 0; i < group.count; ++i) {
+    workspace.squared_reach = group.squared_reach;
+    visit(searchAlone(group.ids[i], k, workspace));
+  }
+  workspace.squared_reach = usual;
+}
+
+// For where positions are much denser, or much sparser, than those before.
+void NeighborSearch::divideGroup(const Group& group, std::size_t k, Workspace& workspace,
+                                 const Visit& visit) const {
+  if (group.count == 1) {
+    visit(searchAlone(group.ids[0], k, workspace));
+    return;
+  }
+  Group half;
+  for (std::size_t i = 0; i < group.count; ++i) {
+    const Box box = boxOf(group.ids[i], group.ids[i] + 1);
+    half.box.low = half.count > 0 ? half.box.low.min(box.low) : box.low;
+    half.box.high = half.count > 0 ? half.box.high.max(box.high) : box.high;
+    half.ids[half.count++] = group.ids[i];
+    if (i + 1 == group.count / 2 || i + 1 == group.count) {
+      visitGroup(half, k, workspace, visit);
+      half.count = 0;
+    }
+  }
+}
+
+// Visits those of the group whose neighbours are proven to lie within the reach, and leaves the
+// others in it, with what they need. Does nothing and returns false if there are too many
+// candidates for that, or too few.
+bool NeighborSearch::visitTogether(Group& group, float squared_reach, std::size_t k,
+                                   Workspace& workspace, const Visit& visit) const {
+  if (!gather(group.box, std::sqrt(squared_reach), mostLeaves(k), workspace) ||
+      workspace.candidates.count < k) {
+    return false;
+  }
+  group.squared_reach = 0.0f;
+  float sum = 0.0f;
+  std::size_t num_left = 0;
+  const std::size_t count = group.count;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t id = group.ids[i];
     const Neighborhood found = take(id, k, workspace);
     sum += workspace.squared_reach;
-    count += 1.0f;
     if (workspace.squared_reach * (1.0f + kRounding) < squared_reach) {
       visit(found);
-    } else {
-      unproven[num_unproven++] = {id, workspace.squared_reach};
+      continue;
     }
+    const Box box = boxOf(id, id + 1);
+    group.box.low = num_left > 0 ? group.box.low.min(box.low) : box.low;
+    group.box.high = num_left > 0 ? group.box.high.max(box.high) : box.high;
+    group.squared_reach = std::max(group.squared_reach, workspace.squared_reach);
+    group.ids[num_left++] = id;
   }
-  for (std::size_t i = 0; i < num_unproven; ++i) {
-    workspace.squared_reach = unproven[i].squared_reach;
-    visit(searchAlone(unproven[i].id, k, workspace));
-  }
-  if (count > 0.0f) {
-    workspace.squared_reach = sum / count;
-  }
+  group.count = num_left;
+  workspace.squared_reach = sum / static_cast<float>(count);
+  return true;
 }
 
 Box NeighborSearch::boxOf(std::size_t begin, std::size_t end) const {
@@ -220,8 +278,8 @@ bool NeighborSearch::gather(const Box& box, float reach, std::size_t most_leaves
   }
   fillFromLeaves(workspace);
   Candidates& all = workspace.in_leaves;
-  workspace.squared.resize(all.padded());
-  workspace.places.resize(all.padded() + kLanes);
+  workspace.squared.resize(std::max(workspace.squared.size(), all.padded()));
+  workspace.places.resize(std::max(workspace.places.size(), all.padded() + kLanes));
   squaredDistancesToBox(all.x.data(), all.y.data(), all.z.data(), all.padded(), box.low.data(),
                         box.high.data(), workspace.squared.data());
   const float farthest = reach * reach * (1.0f + kRounding);
@@ -247,7 +305,8 @@ void NeighborSearch::fillFromLeaves(Workspace& workspace) const {
     }
   }
   all.count = place;
-  std::fill(all.x.begin() + static_cast<std::ptrdiff_t>(place), all.x.end(), kInfinity);
+  std::fill(all.x.begin() + static_cast<std::ptrdiff_t>(place),
+            all.x.begin() + static_cast<std::ptrdiff_t>(all.padded()), kInfinity);
 }
 
 Neighborhood NeighborSearch::searchAlone(std::size_t id, std::size_t k,

@@ -50,14 +50,15 @@ class NeighborSearch {
   using Cloud = pcl::PointCloud<pcl::PointXYZ>;
   using Visit = std::function<void(const Neighborhood&)>;
 
-  /// Positions in plain arrays, padded with infinity to a multiple of `kLanes`.
+  /// Positions in plain arrays, padded with infinity to a multiple of `kLanes`. The arrays only
+  /// grow: the first `padded()` entries count.
   struct Candidates {
     std::vector<float> x, y, z;
     std::vector<pcl::index_t> ids;
     std::size_t count = 0;
 
     void resize(std::size_t size);
-    std::size_t padded() const { return x.size(); }
+    std::size_t padded() const;
   };
 
   /// Memory for searches, one for each thread. What it remembers makes the next search faster, but
@@ -81,8 +82,21 @@ class NeighborSearch {
                const Visit& visit) const;
 
  private:
-  void visitRange(std::size_t begin, std::size_t end, std::size_t k,
-                  const std::vector<char>& wanted, Workspace& workspace, const Visit& visit) const;
+  // Positions that share their candidates.
+  struct Group {
+    std::array<std::uint32_t, 64> ids;
+    std::size_t count = 0;
+    Box box;
+    float squared_reach = 0.0f;  // within which the neighbours of those that are left lie
+  };
+
+  std::size_t nextGroup(std::size_t id, std::size_t end, const std::vector<char>& wanted,
+                        const Workspace& workspace, Group& group) const;
+  void visitGroup(Group& group, std::size_t k, Workspace& workspace, const Visit& visit) const;
+  void divideGroup(const Group& group, std::size_t k, Workspace& workspace,
+                   const Visit& visit) const;
+  bool visitTogether(Group& group, float squared_reach, std::size_t k, Workspace& workspace,
+                     const Visit& visit) const;
   Box boxOf(std::size_t begin, std::size_t end) const;
   bool gather(const Box& box, float reach, std::size_t most_leaves, Workspace& workspace) const;
   void fillFromLeaves(Workspace& workspace) const;
