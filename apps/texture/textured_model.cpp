@@ -133,12 +133,11 @@ void writeTexturedModel(const std::string& folder, const io::PolygonSoup& soup,
                         const Eigen::Vector3d& vertical) {
   const io::OutputDirectory directory(folder);
   const io::OutputDirectory images(directory.file("textures"));
-  std::vector<RgbImage> drawn;  // none of facades that no photo sees
+  std::vector<RgbImage> drawn = drawnImages(textures);
   for (std::size_t f = 0; f < textures.size(); ++f) {
-    RgbImage image = drawnImage(textures[f]);
-    io::writePng(directory.file(nameOf(f, ".png")), image);
+    io::writePng(directory.file(nameOf(f, ".png")), drawn[f]);
     io::writePng(directory.file(nameOf(f, "_mask.png")), maskOf(textures[f]));
-    drawn.push_back(textures[f].seenShare() > 0.0 ? std::move(image) : RgbImage());
+    if (textures[f].seenShare() == 0.0) drawn[f] = RgbImage();  // plain in the GLB
   }
   writeMaterials(directory.file("textured.mtl"), textures.size());
   writeObj(directory.file("textured.obj"), soup, model, textures);

@@ -49,9 +49,9 @@ struct PaintedModel {
   }
 
   TextureSheets sheets() const {
-    std::vector<RgbImage> drawn;
-    for (const FacadeTexture& t : textures) {
-      drawn.push_back(t.seenShare() > 0.0 ? drawnImage(t) : RgbImage());
+    std::vector<RgbImage> drawn = drawnImages(textures);
+    for (std::size_t f = 0; f < textures.size(); ++f) {
+      if (textures[f].seenShare() == 0.0) drawn[f] = RgbImage();
     }
     return laySheets(drawn);
   }
