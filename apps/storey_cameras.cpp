@@ -2,10 +2,12 @@
 // Prints the cameras of photos, and checks them against a cloud.
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cameras/agreement.h"
+#include "cameras/camera_json.h"
 #include "cameras/overlay.h"
 #include "cli/command_line.h"
 #include "io/cameras/camera_set.h"
@@ -31,10 +33,11 @@ struct Request {
   std::string images;
   std::string cloud;
   std::string output;
+  bool json = false;
 };
 
 bool parse(int argc, char** argv, Request& r) {
-  cli::CommandLine line("storey_cameras", {"CAMERAS [IMAGES] [--cloud CLOUD] [-o DIR]"},
+  cli::CommandLine line("storey_cameras", {"CAMERAS [IMAGES] [--cloud CLOUD] [-o DIR] [--json]"},
                         "Prints the cameras of a COLMAP, Bundler or PMVS folder, in the world's "
                         "unit and pixels, and checks them: the points of a cloud must have the "
                         "same brightness in all photos.");
@@ -43,6 +46,7 @@ bool parse(int argc, char** argv, Request& r) {
   line.text("cloud", r.cloud, "cloud to check them against; needs IMAGES");
   line.text("output,o", r.output,
             "folder for a picture of each photo with the cloud's points on it; needs --cloud");
+  line.flag("json", r.json, "print JSON");
   if (!line.parse(argc, argv)) return false;
   if (r.cameras.empty()) line.fail("a file or folder of cameras is needed");
   if (!r.cloud.empty() && r.images.empty()) line.fail("--cloud needs the folder of the images");
@@ -76,15 +80,15 @@ cameras::CloudPoints readPoints(const std::string& path) {
   return points;
 }
 
-void printAgreement(const io::CameraSet& set,
-                    const std::vector<cameras::PhotoAgreement>& agreement) {
+void printAgreement(const io::CameraSet& set, const cameras::CameraCheck& check) {
+  const std::vector<cameras::PhotoAgreement>& agreement = check.agreement;
   std::printf("\n%5s %8s %10s\n", "photo", "points", "agreement");
   for (std::size_t k = 0; k < agreement.size(); ++k) {
     const bool weak = agreement[k].correlation < kLeastOfOne;
     std::printf("%5zu %8zu %10.3f%s\n", set.photos[k].index, agreement[k].points,
                 agreement[k].correlation, weak ? "  disagrees with the others" : "");
   }
-  std::printf("agreement of all: %.3f\n", cameras::meanCorrelation(agreement));
+  std::printf("agreement of all: %.3f\n", check.correlation);
 }
 
 void writePictures(const std::string& folder, const cameras::CloudPoints& points,
@@ -98,8 +102,7 @@ void writePictures(const std::string& folder, const cameras::CloudPoints& points
   }
 }
 
-/// Ends in a Failure if the cameras do not fit the cloud.
-void check(const Request& request, const io::CameraSet& set) {
+cameras::CameraCheck check(const Request& request, const io::CameraSet& set) {
   const cameras::CloudPoints points = readPoints(request.cloud);
   std::vector<storey::Camera> views;
   std::vector<storey::RgbImage> images;
@@ -107,19 +110,24 @@ void check(const Request& request, const io::CameraSet& set) {
     views.push_back(photo.camera);
     images.push_back(io::readImage(photo));
   }
-  const auto agreement = cameras::measureAgreement(points, views, images);
-  printAgreement(set, agreement);
   if (!request.output.empty()) writePictures(request.output, points, set, images);
+  cameras::CameraCheck checked;
+  checked.agreement = cameras::measureAgreement(points, views, images);
+  checked.correlation = cameras::meanCorrelation(checked.agreement);
+  checked.best = cameras::suspectMistakes(points, views, images).front();
+  return checked;
+}
 
-  const double as_given = cameras::meanCorrelation(agreement);
-  const cameras::Suspicion best = cameras::suspectMistakes(points, views, images).front();
-  if (best.correlation > as_given + kClearGain) {
-    throw io::Failure(io::BadInput, request.cameras, best.mistake,
-                      "that undone, the photos agree by " + std::to_string(best.correlation) +
-                          " instead of " + std::to_string(as_given));
+/// Ends in a Failure if the cameras do not fit the cloud.
+void judge(const std::string& path, const cameras::CameraCheck& checked) {
+  if (checked.best.correlation > checked.correlation + kClearGain) {
+    throw io::Failure(io::BadInput, path, checked.best.mistake,
+                      "that undone, the photos agree by " +
+                          std::to_string(checked.best.correlation) + " instead of " +
+                          std::to_string(checked.correlation));
   }
-  if (as_given < kLeastAgreement) {
-    throw io::Failure(io::BadInput, request.cameras, "do not fit the cloud",
+  if (checked.correlation < kLeastAgreement) {
+    throw io::Failure(io::BadInput, path, "do not fit the cloud",
                       "give the cloud and the cameras of the same reconstruction");
   }
 }
@@ -129,8 +137,15 @@ int run(int argc, char** argv) {
   if (!parse(argc, argv, request)) return io::Ok;
   io::CameraSet set = io::readCameras(request.cameras);
   if (!request.images.empty()) io::findImages(request.images, set);
-  printCameras(set);
-  if (!request.cloud.empty()) check(request, set);
+  std::optional<cameras::CameraCheck> checked;
+  if (!request.cloud.empty()) checked = check(request, set);
+  if (request.json) {
+    std::printf("%s\n", cameras::toJson(set, checked).c_str());
+  } else {
+    printCameras(set);
+    if (checked) printAgreement(set, *checked);
+  }
+  if (checked) judge(request.cameras, *checked);
   return io::Ok;
 }
 

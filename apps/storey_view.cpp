@@ -41,6 +41,8 @@ constexpr Picture kPictures[] = {{"01_upright.png", Stage::Upright, View::Isomet
                                  {"11_model_top.png", Stage::Model, View::Top},
                                  {"11_support.png", Stage::Support, View::Isometric},
                                  {"11_deviation.png", Stage::Deviation, View::Isometric},
+                                 {"12_windows.png", Stage::Windows, View::Isometric},
+                                 {"13_textured.png", Stage::Textured, View::Isometric},
                                  {"12_overlay.png", Stage::Overlay, View::Isometric}};
 
 void writeAll(const Reconstruction& reconstruction, const PictureSize& size) {

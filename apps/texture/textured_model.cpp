@@ -2,11 +2,13 @@
 #include "texture/textured_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "export/textured_page.h"
 #include "io/images/image_files.h"
+#include "io/label_names.h"
 #include "io/output_file.h"
 #include "texture/drawn_image.h"
 #include "texture/textured_gltf.h"
@@ -48,7 +50,8 @@ void writeObj(const std::string& path, const io::PolygonSoup& soup, const ModelF
       writeVector(file, "vt", textures[facade].coordinates(vertex));
       face += " " + std::to_string(corner + 1) + "/" + std::to_string(++num_coordinates);
     }
-    file.write("usemtl " + materialOf(facade) + "\n" + face + "\n");
+    file.write("g " + std::string(io::labelName(soup.polygons[i].label)) + "\nusemtl " +
+               materialOf(facade) + "\n" + face + "\n");
   }
   file.commit();
 }
@@ -89,22 +92,30 @@ void writePlan(const std::string& path, const ModelFacades& model,
   file.commit();
 }
 
-/// The images of the largest facades that were seen, the largest first.
+/// The images of the largest facades that were seen: walls, then level ones, the largest first.
 std::vector<exports::FacadeImage> largestImages(const std::vector<FacadeTexture>& textures,
-                                                const TextureSheets& sheets) {
+                                                const TextureSheets& sheets,
+                                                const Eigen::Vector3d& vertical) {
   constexpr double kLeast = 0.05;  // of the area of the largest; less are reveals and corners
   const auto areaOf = [&](std::size_t f) {
     return textures[f].frame.width * textures[f].frame.height;
   };
+  const auto isLevel = [&](std::size_t f) {
+    return std::abs(textures[f].frame.normal().dot(vertical)) > 0.5;
+  };
+  double largest = 0.0;
   std::vector<std::size_t> order;
   for (std::size_t f = 0; f < textures.size(); ++f) {
-    if (sheets.places[f].sheet >= 0) order.push_back(f);
+    if (sheets.places[f].sheet < 0) continue;
+    order.push_back(f);
+    largest = std::max(largest, areaOf(f));
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return areaOf(a) > areaOf(b); });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return isLevel(a) != isLevel(b) ? isLevel(b) : areaOf(a) > areaOf(b);
+  });
   std::vector<exports::FacadeImage> images;
   for (const std::size_t f : order) {
-    if (areaOf(f) < kLeast * areaOf(order.front())) break;
+    if (areaOf(f) < kLeast * largest) continue;
     const FacadeTexture& t = textures[f];
     const SheetPlace& place = sheets.places[f];
     const auto shrunk = [&](int texels) { return (texels + place.shrink - 1) / place.shrink; };
@@ -122,12 +133,11 @@ void writeTexturedModel(const std::string& folder, const io::PolygonSoup& soup,
                         const Eigen::Vector3d& vertical) {
   const io::OutputDirectory directory(folder);
   const io::OutputDirectory images(directory.file("textures"));
-  std::vector<RgbImage> drawn;  // none of facades that no photo sees
+  std::vector<RgbImage> drawn = drawnImages(textures);
   for (std::size_t f = 0; f < textures.size(); ++f) {
-    RgbImage image = drawnImage(textures[f]);
-    io::writePng(directory.file(nameOf(f, ".png")), image);
+    io::writePng(directory.file(nameOf(f, ".png")), drawn[f]);
     io::writePng(directory.file(nameOf(f, "_mask.png")), maskOf(textures[f]));
-    drawn.push_back(textures[f].seenShare() > 0.0 ? std::move(image) : RgbImage());
+    if (textures[f].seenShare() == 0.0) drawn[f] = RgbImage();  // plain in the GLB
   }
   writeMaterials(directory.file("textured.mtl"), textures.size());
   writeObj(directory.file("textured.obj"), soup, model, textures);
@@ -136,7 +146,7 @@ void writeTexturedModel(const std::string& folder, const io::PolygonSoup& soup,
   const exports::GlbFile glb = toTexturedGlb(soup, model, textures, sheets, vertical);
   glb.write(directory.file("textured.glb"));
   exports::showTexturedModel(directory.file("report.html"), glb.bytes(),
-                             largestImages(textures, sheets));
+                             largestImages(textures, sheets, vertical));
 }
 
 }  // namespace storey::texture

@@ -27,7 +27,7 @@ ModelFacades groupFacades(const std::string& path, const io::PolygonSoup& soup);
 void turnToCameras(const std::vector<FacadePhoto>& photos, std::vector<Facade>& facades);
 
 /// Writes textured.obj, textured.mtl, textured.glb (`toTexturedGlb`) and, for each facade k,
-///   textures/facade_kkk.png, the facade seen at right angles (`drawnImage`), and
+///   textures/facade_kkk.png, the facade seen at right angles (`drawnImages`), and
 ///   textures/facade_kkk_mask.png, what of it was seen (`maskOf`);
 /// and facades.json: for each facade its image, frame, size of a texel, share seen, and polygons of
 /// textured.obj. The model and the images are shown in report.html, which is made if there is none.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <storey/surface/rgb_image.h>
+
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
@@ -43,6 +45,15 @@ struct FacetSet {
   double opacity = 1.0;
 };
 
+/// Triangles that an image is drawn on, seen from their front side only, that from which their
+/// corners run counter-clockwise.
+struct TexturedSet {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Eigen::Vector2d> coordinates;   ///< parallel; (0, 0): lower left corner of the image
+  std::vector<std::array<int, 3>> triangles;  ///< indices into `vertices`
+  RgbImage image;
+};
+
 struct LegendEntry {
   Colour colour;
   std::string text;
@@ -69,6 +80,7 @@ struct Drawing {
   std::vector<PointSet> points;
   std::vector<LineSet> lines;
   std::vector<FacetSet> facets;
+  std::vector<TexturedSet> textured;
   std::string legend_title;
   std::vector<LegendEntry> legend;
   ColourBar bar;

@@ -17,20 +17,25 @@ namespace {
 
 constexpr Colour kHypothetical{190, 70, 190};
 constexpr Colour kPartly{208, 135, 172};  // half-way from there to a wall
-constexpr double kMostly = 2.0 / 3;       // of a wall's area
+constexpr Colour kPane{84, 120, 150};
+constexpr Colour kReveal{186, 164, 126};
+constexpr double kMostly = 2.0 / 3;  // of a wall's area
 constexpr Colour kCloud{40, 55, 85};
 constexpr std::size_t kOverlayPoints = 60000;  // few enough to see the model through them
 
 // Level faces are no guess where walls end at them, seen or not.
 bool isUnseen(const PolyhedralFace& face) {
-  return face.label == FaceLabel::Wall && face.hypothetical;
+  return face.label == FaceLabel::Wall && face.window == WindowPart::None && face.hypothetical;
 }
 
 bool isPartlySeen(const PolyhedralFace& face) {
-  return face.label == FaceLabel::Wall && !face.hypothetical && face.coverage < kMostly;
+  return face.label == FaceLabel::Wall && face.window == WindowPart::None && !face.hypothetical &&
+         face.coverage < kMostly;
 }
 
 Colour baseColour(const PolyhedralFace& face) {
+  if (face.window == WindowPart::Pane) return kPane;
+  if (face.window == WindowPart::Reveal) return kReveal;
   if (isPartlySeen(face)) return kPartly;
   if (isUnseen(face)) return kHypothetical;
   switch (face.label) {
@@ -110,14 +115,14 @@ class FaceColours {
   double largest_ = 0.0;  // deviation
 };
 
-FacetSet facetsOf(const Reconstruction& r, const PolyhedralModel& model,
+FacetSet facetsOf(const std::string& path, const PolyhedralModel& model,
                   const FaceColours& colours) {
   FacetSet facets;
   facets.vertices = model.vertices;
   for (std::size_t f = 0; f < model.faces.size(); ++f) {
     const auto triangles = triangulateFace(model, model.faces[f]);
     if (triangles.empty()) {
-      throw io::Failure(io::BadInput, r.file("model.ply"),
+      throw io::Failure(io::BadInput, path,
                         "its polygon " + std::to_string(f) + " is not a simple one in a plane",
                         "run storey_reconstruct again");
     }
@@ -183,8 +188,16 @@ void addKinds(Drawing& drawing, const std::vector<PolyhedralFace>& faces) {
     example.label = static_cast<FaceLabel>(label);
     example.coverage = 1.0;
     add(baseColour(example), kNames[label], [&](const PolyhedralFace& f) {
-      return f.label == example.label && !isUnseen(f) && !isPartlySeen(f);
+      return f.label == example.label && f.window == WindowPart::None && !isUnseen(f) &&
+             !isPartlySeen(f);
     });
+  }
+  const auto isPart = [](WindowPart part) {
+    return [part](const PolyhedralFace& f) { return f.window == part; };
+  };
+  if (std::any_of(faces.begin(), faces.end(), isPart(WindowPart::Pane))) {
+    add(kPane, "window", isPart(WindowPart::Pane));
+    add(kReveal, "reveal", isPart(WindowPart::Reveal));
   }
   add(kPartly, "wall partly seen", isPartlySeen);
   add(kHypothetical, "wall not seen", isUnseen);
@@ -199,6 +212,8 @@ const char* titleOf(Stage stage) {
       return "Model by its standard deviation";
     case Stage::Overlay:
       return "Model over the cloud";
+    case Stage::Windows:
+      return "Model with windows";
     default:
       return "Model";
   }
@@ -207,7 +222,8 @@ const char* titleOf(Stage stage) {
 }  // namespace
 
 Drawing drawModel(const Reconstruction& r, Stage stage) {
-  const PolyhedralModel model = r.readModel();
+  const std::string name = stage == Stage::Windows ? "windows.ply" : "model.ply";
+  const PolyhedralModel model = r.readModel(name);
   const PiecesAt pieces_at = piecesAtEdges(model);
   const std::vector<std::size_t> whole = wholeFaces(model, pieces_at);
   std::vector<PolyhedralFace> faces;  // a piece of each
@@ -218,10 +234,10 @@ Drawing drawModel(const Reconstruction& r, Stage stage) {
   drawing.title = titleOf(stage);
   if (model.faces.empty()) return drawing;
   const FaceColours colours(model, stage);
-  drawing.facets.push_back(facetsOf(r, model, colours));
+  drawing.facets.push_back(facetsOf(r.file(name), model, colours));
   drawing.lines.push_back(edgesOf(model, pieces_at, whole));
   colours.addScale(drawing);
-  if (stage == Stage::Model || stage == Stage::Overlay) addKinds(drawing, faces);
+  if (stage != Stage::Support && stage != Stage::Deviation) addKinds(drawing, faces);
   drawing.subtitle = counted(faces.size(), "polygon") + ", " +
                      counted(static_cast<std::size_t>(model.num_shells), "shell") +
                      (r.report().inside ? ", a space seen from inside" : "");

@@ -38,6 +38,9 @@ ProjectedBounds boundsOf(const Drawing& drawing, const Projection& projection) {
   for (const FacetSet& set : drawing.facets) {
     for (const Eigen::Vector3d& p : set.vertices) include(p);
   }
+  for (const TexturedSet& set : drawing.textured) {
+    for (const Eigen::Vector3d& p : set.vertices) include(p);
+  }
   return bounds;
 }
 

@@ -2,9 +2,11 @@
 #include "view/reconstruction.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "io/failure.h"
+#include "io/label_names.h"
 #include "io/limits.h"
 #include "io/model_io.h"
 #include "view/json_file.h"
@@ -61,6 +63,26 @@ Eigen::Isometry3d localToInput(const std::string& floorplans, const Eigen::Vecto
   return transform;
 }
 
+WindowPart windowPart(std::uint8_t label) {
+  if (label == io::kWindowLabel) return WindowPart::Pane;
+  return label == io::kRevealLabel ? WindowPart::Reveal : WindowPart::None;
+}
+
+// Of a part of a window, which way it faces: files do not tell.
+FaceLabel facing(const io::PolygonSoup& soup, const io::PolygonSoup::Polygon& polygon) {
+  const auto at = [&](std::size_t i) {
+    return soup.vertices[static_cast<std::size_t>(polygon.corners[i])];
+  };
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (std::size_t i = 1; i + 1 < polygon.corners.size(); ++i) {
+    normal += (at(i) - at(0)).cross(at(i + 1) - at(0));
+  }
+  constexpr double kLevel = 0.5;  // of the normal: walls and level faces are far from it
+  normal.normalize();
+  if (std::abs(normal.z()) < kLevel) return FaceLabel::Wall;
+  return normal.z() > 0.0 ? FaceLabel::Roof : FaceLabel::Ceiling;
+}
+
 PolyhedralModel toModel(const io::PolygonSoup& soup, double grid) {
   PolyhedralModel model;
   model.grid = grid;
@@ -68,7 +90,9 @@ PolyhedralModel toModel(const io::PolygonSoup& soup, double grid) {
   for (const io::PolygonSoup::Polygon& polygon : soup.polygons) {
     PolyhedralFace face;
     face.outer = polygon.corners;
-    face.label = static_cast<FaceLabel>(polygon.label);
+    face.window = windowPart(polygon.label);
+    face.label = face.window == WindowPart::None ? static_cast<FaceLabel>(polygon.label)
+                                                 : facing(soup, polygon);
     face.wall = polygon.wall;
     face.shell = polygon.shell;
     face.hypothetical = polygon.hypothetical;
@@ -119,10 +143,13 @@ StageCloud Reconstruction::readLabels(const std::string& name, std::size_t num_l
   return cloud;
 }
 
-PolyhedralModel Reconstruction::readModel() const {
-  io::PolygonSoup soup = io::readPolygons(file("model.ply"));
-  const Eigen::Isometry3d to_local =
-      localToInput(file("floorplans.geojson"), report_.offset).inverse();
+Eigen::Isometry3d Reconstruction::inputToLocal() const {
+  return localToInput(file("floorplans.geojson"), report_.offset).inverse();
+}
+
+PolyhedralModel Reconstruction::readModel(const std::string& name) const {
+  io::PolygonSoup soup = io::readPolygons(file(name));
+  const Eigen::Isometry3d to_local = inputToLocal();
   for (Eigen::Vector3d& vertex : soup.vertices) vertex = to_local * vertex;
   return toModel(soup, report_.grid);
 }

@@ -40,8 +40,10 @@ class Reconstruction {
   /// \param num_labels 0: any number
   StageCloud readLabels(const std::string& name, std::size_t num_labels,
                         const std::string& field = "label") const;
-  /// The faces of the model in the upright local frame.
-  PolyhedralModel readModel() const;
+  /// The polygons of a model's file in the upright local frame.
+  PolyhedralModel readModel(const std::string& name) const;
+  /// Takes the input's coordinates to the upright local frame.
+  Eigen::Isometry3d inputToLocal() const;
 
  private:
   std::string directory_;

@@ -5,12 +5,15 @@
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkTexture.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -106,12 +109,54 @@ void addFacets(vtkRenderer& renderer, const FacetSet& set) {
   renderer.AddActor(actor);
 }
 
+vtkNew<vtkTexture> toVtk(const RgbImage& image) {
+  vtkNew<vtkImageData> data;
+  data->SetDimensions(image.width, image.height, 1);
+  data->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  for (int y = 0; y < image.height; ++y) {
+    const auto* const row = image.at(0, y);
+    std::copy(row, row + 3 * image.width,
+              static_cast<unsigned char*>(data->GetScalarPointer(0, image.height - 1 - y, 0)));
+  }
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(data);
+  texture->InterpolateOn();
+  texture->MipmapOn();
+  texture->RepeatOff();
+  texture->EdgeClampOn();
+  return texture;
+}
+
+void addTextured(vtkRenderer& renderer, const TexturedSet& set) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkFloatArray> coordinates;
+  coordinates->SetNumberOfComponents(2);
+  for (std::size_t i = 0; i < set.vertices.size(); ++i) {
+    points->InsertNextPoint(set.vertices[i].data());
+    coordinates->InsertNextTuple(set.coordinates[i].data());
+  }
+  vtkNew<vtkCellArray> cells;
+  for (const std::array<int, 3>& triangle : set.triangles) {
+    cells->InsertNextCell({triangle[0], triangle[1], triangle[2]});
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(cells);
+  data->GetPointData()->SetTCoords(coordinates);
+  const vtkNew<vtkActor> actor = unlitActor(data);
+  actor->SetTexture(toVtk(set.image));
+  actor->GetProperty()->BackfaceCullingOn();
+  renderer.AddActor(actor);
+}
+
 }  // namespace
 
 std::vector<vtkActor*> addScene(vtkRenderer& renderer, const Drawing& drawing, const Layout& layout,
                                 double pixels) {
   const ProjectedBounds bounds = boundsOf(drawing, projectionOf(drawing.view));
   for (const FacetSet& set : drawing.facets) addFacets(renderer, set);
+  for (const TexturedSet& set : drawing.textured) addTextured(renderer, set);
   for (const PointSet& set : drawing.points) {
     if (set.positions.empty()) continue;
     const double size = set.size > 0.0 ? set.size * layout.unit : closingSize(set, bounds, pixels);

@@ -29,6 +29,8 @@ const std::vector<StageInfo>& allStages() {
       {Stage::Model, "model", 11, {"model.ply", "floorplans.geojson"}},
       {Stage::Support, "support", 11, {"model.ply", "floorplans.geojson"}},
       {Stage::Deviation, "deviation", 11, {"model.ply", "floorplans.geojson"}},
+      {Stage::Windows, "windows", 12, {"windows.ply", "floorplans.geojson"}},
+      {Stage::Textured, "textured", 13, {"textured.obj", "facades.json", "floorplans.geojson"}},
       {Stage::Overlay, "overlay", 12, {"01_upright.pcd", "model.ply", "floorplans.geojson"}}};
   return stages;
 }

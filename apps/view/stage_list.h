@@ -26,6 +26,8 @@ enum class Stage {
   Model,
   Support,
   Deviation,
+  Windows,
+  Textured,
   Overlay
 };
 

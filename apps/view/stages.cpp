@@ -35,6 +35,8 @@ Drawing drawStage(const Reconstruction& r, Stage stage, View view, std::optional
       return detail::drawWalls(r);
     case Stage::Cells:
       return detail::drawCells(r, slice);
+    case Stage::Textured:
+      return detail::drawTextured(r);
     case Stage::Types:
       return detail::drawTypes(r);
     case Stage::Slice:

@@ -46,6 +46,7 @@ Drawing drawWalls(const Reconstruction& reconstruction);
 Drawing drawCells(const Reconstruction& reconstruction, std::optional<int> block);
 Drawing drawTypes(const Reconstruction& reconstruction);
 Drawing drawModel(const Reconstruction& reconstruction, Stage stage);
+Drawing drawTextured(const Reconstruction& reconstruction);
 Drawing drawSlice(const Reconstruction& reconstruction, Stage stage, std::optional<int> slice);
 
 /// Lays the upright cloud over a drawing and lets it shine through facets.

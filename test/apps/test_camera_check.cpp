@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "cameras/agreement.h"
+#include "cameras/camera_json.h"
 
 namespace storey::cameras {
 namespace {
@@ -149,6 +151,40 @@ TEST_F(PaintedBox, MistakesAreNamed) {
         c.world_to_camera = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()) * c.world_to_camera;
       },
       "along -z");
+}
+
+// The numbers alone are enough to project a point.
+TEST_F(PaintedBox, IsToldAsJson) {
+  io::CameraSet set;
+  set.format = "COLMAP text";
+  for (std::size_t k = 0; k < cameras_.size(); ++k) {
+    io::Photo photo;
+    photo.name = "view\xff.png";  // no UTF-8
+    photo.index = k;
+    photo.camera = cameras_[k];
+    set.photos.push_back(photo);
+  }
+  const auto bare = nlohmann::json::parse(toJson(set, std::nullopt));
+  EXPECT_FALSE(bare.contains("agreement"));
+  ASSERT_EQ(bare["photos"].size(), cameras_.size());
+  const Eigen::Vector4d point(0.3, -0.2, kHalf, 1.0);
+  for (std::size_t k = 0; k < cameras_.size(); ++k) {
+    const auto& photo = bare["photos"][k];
+    EXPECT_EQ(photo["photo"], k);
+    Eigen::Vector3d seen;
+    for (std::size_t row = 0; row < 3; ++row) {
+      const auto numbers = photo["world_to_camera"][row].get<std::vector<double>>();
+      seen[static_cast<Eigen::Index>(row)] = Eigen::Vector4d(numbers.data()).dot(point);
+    }
+    const double x = photo["focal_length"][0].get<double>() * seen.x() / seen.z() +
+                     photo["principal_point"][0].get<double>();
+    EXPECT_NEAR(x, cameras_[k].project(point.head<3>())->x(), 1e-9);
+  }
+  const CameraCheck check = {measureAgreement(cloud_, cameras_, images_), 0.7, {"reason", 0.9}};
+  const auto checked = nlohmann::json::parse(toJson(set, check));
+  EXPECT_EQ(checked["agreement"], 0.7);
+  EXPECT_EQ(checked["suspected_mistake"]["mistake"], "reason");
+  EXPECT_EQ(checked["photos"][1]["agreement"], check.agreement[1].correlation);
 }
 
 }  // namespace

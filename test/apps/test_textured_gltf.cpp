@@ -9,61 +9,27 @@
 #include "export/glb.h"
 #include "io/images/image_files.h"
 #include "io/model_io.h"
+#include "painted_model.h"
 #include "synth/buildings.h"
 #include "temporary_files.h"
-#include "texture/drawn_image.h"
 #include "texture/textured_gltf.h"
 
 namespace storey::texture {
 namespace {
 
-/// Grey level of a channel at a place: waves of 6 and more units, 60 texels.
-double paint(const Eigen::Vector3d& at, int channel) {
-  return 128.0 + 60.0 * std::sin(at.x() + channel) + 40.0 * std::cos(0.7 * at.y() - 0.5 * at.z());
-}
-
-constexpr double kTexel = 0.1;
 const Eigen::Vector3d kFar(1e7, -3e7, 500.0);
 
-/// A generated building far from the origin, painted all over.
-struct Painted {
-  io::PolygonSoup soup;
-  ModelFacades model;
-  std::vector<FacadeTexture> textures;
+PaintedModel paintedFarAway(const char* name) {
+  io::PolygonSoup soup = io::toPolygons(extrudeFloorplans(synth::makeBuilding(name).layers));
+  for (Eigen::Vector3d& vertex : soup.vertices) vertex += kFar;
+  return {std::move(soup), kFar};
+}
 
-  explicit Painted(const char* name) {
-    soup = io::toPolygons(extrudeFloorplans(synth::makeBuilding(name).layers));
-    for (Eigen::Vector3d& vertex : soup.vertices) vertex += kFar;
-    model = groupFacades("model", soup);
-    FacadeTexturing texturing;
-    texturing.setFacades(model.facades);
-    texturing.setTexelSize(kTexel);
-    EXPECT_TRUE(texturing.texture(textures));
-    for (FacadeTexture& t : textures) {
-      for (int y = 0; y < t.image.height; ++y) {
-        for (int x = 0; x < t.image.width; ++x) {
-          const Eigen::Vector3d at =
-              t.frame.point((x + 0.5) * t.texel, t.frame.height - (y + 0.5) * t.texel) - kFar;
-          for (int c = 0; c < 3; ++c) {
-            t.image.at(x, y)[c] = static_cast<std::uint8_t>(std::lround(paint(at, c)));
-          }
-        }
-      }
-      t.states.assign(t.states.size(), TexelState::Seen);
-    }
-  }
-
-  test::Glb write() const {
-    const test::TemporaryDirectory directory;
-    std::vector<RgbImage> drawn;
-    for (const FacadeTexture& t : textures) {
-      drawn.push_back(t.seenShare() > 0.0 ? drawnImage(t) : RgbImage());
-    }
-    toTexturedGlb(soup, model, textures, laySheets(drawn), Eigen::Vector3d::UnitZ())
-        .write(directory.file("a.glb"));
-    return test::Glb(test::readAll(directory.file("a.glb")));
-  }
-};
+test::Glb write(const PaintedModel& painted) {
+  return test::Glb(toTexturedGlb(painted.soup, painted.model, painted.textures, painted.sheets(),
+                                 Eigen::Vector3d::UnitZ())
+                       .bytes());
+}
 
 /// What the file says of a place: where it is, what colour, which way it faces.
 struct Sample {
@@ -73,19 +39,6 @@ struct Sample {
   Eigen::Vector3d turn;  ///< of the triangle's corners
   std::size_t facade;
 };
-
-Eigen::Array3d bilinear(const RgbImage& image, const Eigen::Vector2d& uv) {
-  const Eigen::Array2d at(uv.x() * image.width - 0.5, uv.y() * image.height - 0.5);
-  Eigen::Array3d sum = Eigen::Array3d::Zero();
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Array2d corner = at.floor() + Eigen::Array2d(i % 2, i / 2);
-    const double weight = (1.0 - (at - corner).abs()).prod();
-    const int x = std::clamp(static_cast<int>(corner.x()), 0, image.width - 1);
-    const int y = std::clamp(static_cast<int>(corner.y()), 0, image.height - 1);
-    for (int c = 0; c < 3; ++c) sum[c] += weight * image.at(x, y)[c];
-  }
-  return sum;
-}
 
 std::vector<RgbImage> imagesOf(const test::Glb& glb) {
   const test::TemporaryDirectory directory;
@@ -143,8 +96,8 @@ constexpr double kJpeg = 8.0;
 
 TEST(TexturedGltf, ShowsEveryPlaceInItsColour) {
   for (const char* name : {"box", "two_towers", "syn2"}) {  // images by themselves, and on a sheet
-    const Painted painted(name);
-    const test::Glb glb = painted.write();
+    const PaintedModel painted = paintedFarAway(name);
+    const test::Glb glb = write(painted);
     const bool few = painted.textures.size() <= 16;
     EXPECT_EQ(glb.json["images"].size(), few ? painted.textures.size() : 1u) << name;
     const std::vector<Sample> samples = samplesOf(glb);
@@ -161,20 +114,20 @@ TEST(TexturedGltf, ShowsEveryPlaceInItsColour) {
 }
 
 TEST(TexturedGltf, FacesTheCamerasInside) {
-  Painted painted("box");
+  PaintedModel painted = paintedFarAway("box");
   for (Facade& facade : painted.model.facades) facade.normal *= -1.0;
-  for (const Sample& sample : samplesOf(painted.write())) {
+  for (const Sample& sample : samplesOf(write(painted))) {
     EXPECT_GT(sample.turn.dot(painted.model.facades.at(sample.facade).normal), 0.0);
   }
 }
 
 TEST(TexturedGltf, WhatNoPhotoSawIsMarked) {
-  Painted painted("box");
+  PaintedModel painted = paintedFarAway("box");
   FacadeTexture& half = painted.textures[0];
   for (std::size_t i = 0; i < half.states.size() / 2; ++i) half.states[i] = TexelState::Unseen;
   FacadeTexture& none = painted.textures[1];
   none.states.assign(none.states.size(), TexelState::Unseen);
-  const test::Glb glb = painted.write();
+  const test::Glb glb = write(painted);
   EXPECT_EQ(glb.json["images"].size(), painted.textures.size() - 1);
   std::size_t striped = 0;
   for (const Sample& sample : samplesOf(glb)) {

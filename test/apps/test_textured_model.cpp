@@ -11,6 +11,7 @@
 #include "io/model_io.h"
 #include "synth/buildings.h"
 #include "temporary_files.h"
+#include "texture/drawn_image.h"
 #include "texture/textured_model.h"
 
 namespace storey::texture {
@@ -61,6 +62,41 @@ TEST(ModelFacades, TurnToCamerasInside) {
   inside.camera.world_to_camera.translation() = -middle;
   turnToCameras({inside}, model.facades);
   EXPECT_EQ(model.facades[0].normal, -before[0].normal);
+}
+
+/// A wall of 8 x 6 whose hole [2, 6] x [1, 5] has a pane of the same size behind it.
+TEST(DrawnImages, HolesShowTheirPanes) {
+  FacadeTexture wall;
+  wall.frame.width = 8.0;
+  wall.frame.height = 6.0;
+  wall.frame.up = Eigen::Vector3d::UnitZ();
+  wall.texel = 0.1;
+  wall.image = RgbImage(80, 60);
+  for (int i = 0; i < 80 * 60; ++i) {
+    const int x = i % 80;
+    const int y = i / 80;
+    const bool hole = x >= 20 && x < 60 && y >= 10 && y < 50;
+    wall.states.push_back(hole ? TexelState::Outside : TexelState::Seen);
+    std::fill_n(wall.image.at(x, y), 3, std::uint8_t(hole ? 0 : 200));
+  }
+  FacadeTexture pane = wall;
+  pane.frame.origin = {2.0, 0.3, 1.0};  // the wall looks to -y
+  pane.frame.width = pane.frame.height = 4.0;
+  pane.texel = 0.2;
+  pane.image = RgbImage(20, 20);
+  pane.states.assign(400, TexelState::Seen);
+  for (int i = 0; i < 400; ++i) {  // dark above, bright below
+    std::fill_n(pane.image.at(i % 20, i / 20), 3, std::uint8_t(i / 20 < 10 ? 40 : 100));
+  }
+  const std::vector<RgbImage> images = drawnImages({wall, pane});
+  for (int i = 0; i < 80 * 60; ++i) {
+    const int x = i % 80;
+    const int y = i / 80;
+    // The wall's own colour goes two texels into the hole.
+    const bool in_pane = x >= 22 && x < 58 && y >= 12 && y < 48;
+    ASSERT_EQ(*images[0].at(x, y), !in_pane ? 200 : (y < 30 ? 40 : 100)) << x << " " << y;
+  }
+  EXPECT_EQ(images[1].channels, pane.image.channels);
 }
 
 TEST(TexturedModel, FilesSayWhereEachCornerIs) {

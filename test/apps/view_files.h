@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "io/model_io.h"
 #include "io/cloud_writer.h"
+#include "io/model_io.h"
 #include "temporary_files.h"
 
 namespace storey::test {
@@ -49,6 +49,7 @@ class BoxReconstruction {
   const std::string& path() const { return directory_.path(); }
   std::string file(const std::string& name) const { return directory_.file(name); }
   const TemporaryDirectory& directory() const { return directory_; }
+  const Eigen::Isometry3d& localToInput() const { return local_to_input_; }
 
   /// 30 points of the southern wall, ten in each of three slices of thickness 2, and one of none;
   /// the refined ones lie on y = 0, those before on y = -0.25. Slice 1 has a floorplan.

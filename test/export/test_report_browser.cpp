@@ -2,9 +2,7 @@
 // report.html in a browser: no errors, the model drawn, and turned by the mouse.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <nlohmann/json.hpp>
-
+#include "export/browser.h"
 #include "export/report_pages.h"
 
 namespace storey::test {
@@ -12,17 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Put in before all other scripts: takes down what goes wrong.
-constexpr const char* kWatch =
-    "<script>window.problems = [];"
-    "window.onerror = text => { problems.push(text); };"
-    "console.error = (...text) => { problems.push(text.join(' ')); };"
-    "const context = HTMLCanvasElement.prototype.getContext;"
-    "HTMLCanvasElement.prototype.getContext = function (kind, options) {"
-    "  return context.call(this, kind, {...options, preserveDrawingBuffer: true}); };"
-    "</script>";
-
-// And after them: drags over the canvas, and tells what came of it in place of the page.
+// Drags over the canvas, and tells what came of it in place of the page.
 constexpr const char* kDrag = R"(<script>
 window.addEventListener('load', () => {
   const canvas = document.querySelector('#viewer canvas');
@@ -71,43 +59,10 @@ window.addEventListener('load', () => {
 });
 </script>)";
 
-/// Opens the page in a browser of its own and gives what the script saw.
-Json look(const TemporaryDirectory& directory, const std::string& path) {
-  std::string page = readAll(path);
-  page.insert(page.find("<style>"), kWatch);
-  page.insert(page.rfind("</body>"), kDrag);
-  const std::string opened = directory.write("opened.html", page);
-  const std::string command =
-      "HOME=" + directory.path() +
-      " timeout 300 chromium --headless --no-sandbox --disable-dev-shm-usage --use-gl=angle "
-      "--use-angle=swiftshader --enable-unsafe-swiftshader --window-size=1200,900 "
-      "--virtual-time-budget=10000 --dump-dom 'file://" +
-      opened + "' >" + directory.file("dom") + " 2>" + directory.file("log");
-  EXPECT_EQ(std::system(command.c_str()), 0) << readAll(directory.file("log"));
-  const std::string dom = readAll(directory.file("dom"));
-  const std::size_t start = dom.find("@@");
-  const std::size_t end = dom.rfind("@@");
-  if (start == std::string::npos || end <= start) {
-    ADD_FAILURE() << "the page did not come to its end: " << readAll(directory.file("log"));
-    return {};
-  }
-  // HTML writes < > & as names.
-  std::string text = dom.substr(start + 2, end - start - 2);
-  for (const auto& [name, sign] :
-       {std::pair<std::string, std::string>{"&lt;", "<"}, {"&gt;", ">"}, {"&amp;", "&"}}) {
-    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at)) {
-      text.replace(at, name.size(), sign);
-    }
-  }
-  return Json::parse(text);
-}
-
-bool haveChromium() { return std::system("command -v chromium >/dev/null 2>&1") == 0; }
-
 TEST(ReportBrowser, DrawsTheModelWhichTheMouseTurns) {
   if (!haveChromium()) GTEST_SKIP() << "there is no chromium";
   const TemporaryDirectory directory;
-  const Json seen = look(directory, writePage(directory));
+  const Json seen = look(directory, writePage(directory), kDrag);
   EXPECT_EQ(seen["problems"], Json::array());
   EXPECT_EQ(seen["outside"], Json::array());
   EXPECT_EQ(seen["title"], "script><b>name.ply");  // what follows the last slash
@@ -130,7 +85,7 @@ TEST(ReportBrowser, ShowsThePictures) {
   const TemporaryDirectory directory;
   const std::string path = writePage(directory);
   exports::addPictures(path, {writePng(directory, "a.png"), writePng(directory, "b.png")});
-  const Json seen = look(directory, path);
+  const Json seen = look(directory, path, kDrag);
   EXPECT_EQ(seen["problems"], Json::array());
   EXPECT_EQ(seen["pictures"], 2);
   EXPECT_TRUE(seen["loaded"].get<bool>());

@@ -22,7 +22,8 @@
     const images = [];
     showAsPhotographed(model, images);
     facades.forEach(facade => showFacade(facade, images[facade.sheet]));
-    const radius = new THREE.Box3().setFromObject(model).getSize(new THREE.Vector3()).length() / 2;
+    const extent = new THREE.Box3().setFromObject(model).getSize(new THREE.Vector3()).length();
+    const radius = 0.4 * extent;  // buildings do not fill the sphere about them
     try {
       turntable(place, gltf.scene, new THREE.Vector3(...model.userData.up), radius);
     } catch (error) {
