@@ -64,10 +64,16 @@ void addFacade(const Photographed& photographed, const Case& of, std::size_t fac
   const int found_before = row.windows.found;
   const int right_before = row.windows.right;
   synth::compareWindows(grid, painted, row.windows);
-  std::fprintf(stderr, "%s %g facade %zu: %zu painted, %d found, %d right, depth %.3f%s %s\n",
+  double worst = 0.0;
+  for (std::size_t i = static_cast<std::size_t>(right_before); i < row.windows.corners.size();
+       ++i) {
+    worst = std::max(worst, row.windows.corners[i]);
+  }
+  std::fprintf(stderr,
+               "%s %g facade %zu: %zu painted, %d found, %d right, corners %.2f, depth %.3f%s %s\n",
                of.building.c_str(), of.recess, facade, painted.size(),
-               row.windows.found - found_before, row.windows.right - right_before, grid.depth,
-               grid.depth_known ? "" : " unknown", grid.problem.c_str());
+               row.windows.found - found_before, row.windows.right - right_before, worst,
+               grid.depth, grid.depth_known ? "" : " unknown", grid.problem.c_str());
   if (grid.windows.empty()) return;
   ++row.facades;
   if (grid.depth_known) {
