@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How well windows are found in photos of generated buildings: with a mark on each facade, and
 // without any. Prints tables in Markdown; a line for each facade goes to stderr.
-#include <storey/surface/extrusion.h>
 #include <storey/surface/model_check.h>
 #include <storey/surface/window_cutting.h>
 #include <storey/surface/window_detection.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -16,7 +14,7 @@
 
 #include "bench/markdown.h"
 #include "cli/command_line.h"
-#include "synth/buildings.h"
+#include "synth/photos/rendered_building.h"
 #include "synth/photos/window_evaluation.h"
 
 namespace {
@@ -28,22 +26,6 @@ namespace synth = storey::synth;
 struct Case {
   std::string building;
   double recess = 0.0;
-};
-
-struct Photographed {
-  storey::PolyhedralModel model;
-  synth::PhotoScene scene;
-  std::vector<storey::Camera> cameras;
-  std::vector<storey::FacadePhoto> photos;
-
-  Photographed(const std::string& building, const synth::PhotoOptions& options)
-      : model(storey::extrudeFloorplans(synth::makeBuilding(building).layers)),
-        scene(model, options),
-        cameras(scene.placeCameras()) {
-    for (const storey::Camera& camera : cameras) {
-      photos.push_back({camera, scene.photograph(camera, static_cast<int>(photos.size()))});
-    }
-  }
 };
 
 /// What one way of finding windows is worth on one building.
@@ -58,16 +40,22 @@ struct Row {
 
 double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-void addFacade(const Photographed& photographed, const Case& of, std::size_t facade,
+void addFacade(const synth::Rendered& rendered, const Case& of, std::size_t facade,
                const storey::WindowGrid& grid, storey::PolyhedralModel& model, Row& row) {
-  const auto& painted = photographed.scene.paints()[facade].windows();
+  const auto& painted = rendered.scene.paints()[facade].windows();
   const int found_before = row.windows.found;
   const int right_before = row.windows.right;
   synth::compareWindows(grid, painted, row.windows);
-  std::fprintf(stderr, "%s %g facade %zu: %zu painted, %d found, %d right, depth %.3f%s %s\n",
+  double worst = 0.0;
+  for (std::size_t i = static_cast<std::size_t>(right_before); i < row.windows.corners.size();
+       ++i) {
+    worst = std::max(worst, row.windows.corners[i]);
+  }
+  std::fprintf(stderr,
+               "%s %g facade %zu: %zu painted, %d found, %d right, corners %.2f, depth %.3f%s %s\n",
                of.building.c_str(), of.recess, facade, painted.size(),
-               row.windows.found - found_before, row.windows.right - right_before, grid.depth,
-               grid.depth_known ? "" : " unknown", grid.problem.c_str());
+               row.windows.found - found_before, row.windows.right - right_before, worst,
+               grid.depth, grid.depth_known ? "" : " unknown", grid.problem.c_str());
   if (grid.windows.empty()) return;
   ++row.facades;
   if (grid.depth_known) {
@@ -82,22 +70,23 @@ void addFacade(const Photographed& photographed, const Case& of, std::size_t fac
 }
 
 /// With a mark on each facade, or with none at all.
-Row measure(const Photographed& photographed, const Case& of, bool marked) {
+Row measure(const synth::Rendered& rendered, const Case& of, bool marked) {
+  const std::vector<storey::Camera> cameras = rendered.scene.placeCameras();
   Row row;
-  storey::PolyhedralModel model = photographed.model;
+  storey::PolyhedralModel model = rendered.model;
   const double start = processorSeconds();
-  const storey::WindowDetection detection(photographed.scene.facades(), photographed.photos);
+  const storey::WindowDetection detection(rendered.scene.facades(), rendered.photos);
   row.seconds = processorSeconds() - start;
-  for (std::size_t f = 0; f < photographed.scene.facades().size(); ++f) {
-    const auto mark = markWindow(photographed.scene, photographed.cameras, f);
+  for (std::size_t f = 0; f < rendered.scene.facades().size(); ++f) {
+    const auto mark = markWindow(rendered.scene, cameras, f);
     if (marked && !mark) {
-      row.windows.painted += static_cast<int>(photographed.scene.paints()[f].windows().size());
+      row.windows.painted += static_cast<int>(rendered.scene.paints()[f].windows().size());
       continue;
     }
     const double begin = processorSeconds();
     const storey::WindowGrid grid = marked ? detection.detect(*mark) : detection.propose(f);
     row.seconds += processorSeconds() - begin;
-    addFacade(photographed, of, f, grid, model, row);
+    addFacade(rendered, of, f, grid, model, row);
   }
   row.valid = checkModel(model).ok();
   return row;
@@ -137,10 +126,10 @@ int run(int argc, char** argv) {
   for (const std::string& building : buildings) {
     for (const double recess : {0.0, 0.3}) {
       options.recess = recess;
-      const Photographed photographed(building, options);
+      const synth::Rendered rendered(building.c_str(), options);
       for (const bool marked : {true, false}) {
         const Case of{building, recess};
-        addRow(of, marked ? "mark" : "auto", measure(photographed, of, marked), table);
+        addRow(of, marked ? "mark" : "auto", measure(rendered, of, marked), table);
       }
     }
   }

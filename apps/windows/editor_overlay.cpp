@@ -8,13 +8,13 @@ namespace storey::windows {
 namespace {
 
 /// The part of a segment within a rectangle (Liang and Barsky).
-std::optional<Segment> clip(const Segment& segment, const PhotoView& view) {
+std::optional<Segment> clip(const Segment& segment, const Eigen::AlignedBox2d& box) {
   const Eigen::Vector2d along = segment.second - segment.first;
   double enter = 0.0;
   double leave = 1.0;
   for (int axis = 0; axis < 2; ++axis) {
-    const double before = view.low[axis] - segment.first[axis];
-    const double behind = view.high[axis] - segment.first[axis];
+    const double before = box.min()[axis] - segment.first[axis];
+    const double behind = box.max()[axis] - segment.first[axis];
     if (along[axis] == 0.0) {
       if (before > 0.0 || behind < 0.0) return std::nullopt;
       continue;
@@ -29,10 +29,16 @@ std::optional<Segment> clip(const Segment& segment, const PhotoView& view) {
 /// Collects lines of a photo.
 class Overlay {
  public:
-  Overlay(const Camera& camera, const PhotoView& view) : camera_(camera), view_(view) {}
+  Overlay(const Camera& camera, const PhotoView& view) : camera_(camera), view_(view) {
+    const Eigen::Vector2d top_left = view.toWindow({0.0, 0.0});
+    const Eigen::Vector2d bottom_right =
+        view.toWindow({static_cast<double>(camera.width), static_cast<double>(camera.height)});
+    shown_.min() = view.low.cwiseMax(Eigen::Vector2d(top_left.x(), bottom_right.y()));
+    shown_.max() = view.high.cwiseMin(Eigen::Vector2d(bottom_right.x(), top_left.y()));
+  }
 
   void add(OverlayLines& lines, const Segment& pixels) const {
-    const auto inside = clip({view_.toWindow(pixels.first), view_.toWindow(pixels.second)}, view_);
+    const auto inside = clip({view_.toWindow(pixels.first), view_.toWindow(pixels.second)}, shown_);
     if (inside) lines.segments.push_back(*inside);
   }
 
@@ -45,6 +51,7 @@ class Overlay {
  private:
   const Camera& camera_;
   const PhotoView& view_;
+  Eigen::AlignedBox2d shown_;  // of the photo, in the window
 };
 
 std::vector<Eigen::Vector3d> cornersOf(const FacadeFrame& frame, const Eigen::AlignedBox2d& box,

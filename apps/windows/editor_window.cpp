@@ -240,22 +240,39 @@ void EditorWindow::addOverlay(std::size_t photo, const PhotoView& view, double w
   }
 }
 
+/// As many of the photos that show the facade as there is room for, the one shown among them.
+void EditorWindow::placeStrip() {
+  strip_.clear();
+  if (!editor_.strip()) return;
+  const std::vector<std::size_t> photos = editor_.related();
+  const double gap = kGap * layout_.unit;
+  const double low = kFoot * layout_.unit + gap;
+  const double height = kStrip * layout_.unit - 2.0 * gap;
+  const auto here = std::find(photos.begin(), photos.end(), editor_.photo());
+  const Camera& first = editor_.photos()[photos.front()].camera;
+  const double usual = gap + height * first.width / first.height;
+  const auto half = static_cast<std::ptrdiff_t>(0.5 * layout_.width / usual);
+  const std::ptrdiff_t index = here == photos.end() ? 0 : here - photos.begin();
+  double left = gap;
+  for (auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, index - half));
+       i < photos.size(); ++i) {
+    const Camera& camera = editor_.photos()[photos[i]].camera;
+    const double width = std::floor(height * camera.width / camera.height);
+    if (left + width > layout_.width) break;
+    strip_.push_back(
+        {photos[i], PhotoView::whole(camera, {left, low}, {left + width, low + height})});
+    left += width + gap;
+  }
+}
+
 void EditorWindow::draw() {
   renderer_->RemoveAllViewProps();
   addImage(editor_.photo(), view_);
   addOverlay(editor_.photo(), view_, 2.5);
-  strip_.clear();
-  double left = kGap * layout_.unit;
-  const double low = (kFoot + kGap) * layout_.unit;
-  const double height = (kStrip - 2.0 * kGap) * layout_.unit;
-  for (const std::size_t photo : editor_.strip() ? editor_.related() : std::vector<std::size_t>()) {
-    const Camera& camera = editor_.photos()[photo].camera;
-    const double width = std::floor(height * camera.width / camera.height);
-    if (left + width > layout_.width) break;
-    strip_.push_back({photo, PhotoView::whole(camera, {left, low}, {left + width, low + height})});
-    addImage(photo, strip_.back().view);
-    addOverlay(photo, strip_.back().view, 1.2);
-    left += width + kGap * layout_.unit;
+  placeStrip();
+  for (const Thumbnail& thumbnail : strip_) {
+    addImage(thumbnail.photo, thumbnail.view);
+    addOverlay(thumbnail.photo, thumbnail.view, 1.2);
   }
   addWriting();
   if (editor_.help()) addHelp();

@@ -59,6 +59,7 @@ class EditorWindow {
   void prepare(const view::PictureSize& size);
   void act(WindowEditor::Action action);
   void place();
+  void placeStrip();
   void draw();
   void addImage(std::size_t photo, const PhotoView& view);
   void addOverlay(std::size_t photo, const PhotoView& view, double width);

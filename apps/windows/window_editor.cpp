@@ -154,21 +154,24 @@ WindowEditor::Action WindowEditor::proposeAll() {
   status_ = std::to_string(added.size()) + " facades proposed";
   if (added.empty()) return Action::Draw;
   remember();
-  for (FoundFacade& facade : added) put(std::move(facade));
+  for (FoundFacade& facade : added) facades_.push_back(std::move(facade));
+  current_ = facades_.size() - 1;
   return Action::Draw;
 }
 
-/// A facade's windows are found in one way: the last one counts.
+/// A mark within a window of an earlier one takes its place; others, around windows of another
+/// size, stay beside it.
 void WindowEditor::put(FoundFacade facade) {
-  const auto same = std::find_if(
-      facades_.begin(), facades_.end(),
-      [&facade](const FoundFacade& other) { return other.found.facade == facade.found.facade; });
-  current_ = static_cast<std::size_t>(same - facades_.begin());
-  if (same == facades_.end()) {
-    facades_.push_back(std::move(facade));
-  } else {
-    *same = std::move(facade);
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& corner : facade.edit.quad) middle += 0.25 * corner;
+  const std::optional<Grabbed> marked = windowAt(middle);
+  if (marked && facades_[marked->facade].found.facade == facade.found.facade) {
+    current_ = marked->facade;
+    facades_[current_] = std::move(facade);
+    return;
   }
+  current_ = facades_.size();
+  facades_.push_back(std::move(facade));
 }
 
 WindowEditor::Action WindowEditor::removeFacade() {

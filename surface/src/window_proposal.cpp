@@ -45,12 +45,6 @@ class IntegralImage {
   Eigen::ArrayXXf sums_;
 };
 
-/// A box that a grid may grow from, and how much it differs from the frame about it.
-struct Seed {
-  Box box;
-  float contrast;
-};
-
 /// Numbers of pixels of each colour.
 using Histogram = Eigen::ArrayXd;
 
@@ -62,16 +56,19 @@ class GridSearch {
     count({0, 0, width(), height()}, total_);
   }
 
-  std::vector<Seed> seeds() const;
+  std::vector<Box> seeds() const;
 
   struct Found {
     BandGrid bands;
-    WindowScores scores;
-    int windows = 0;
+    Histogram inside;  // colours that its scores are learnt from
+    std::vector<Box> windows;
     double information = 0.0;  // I, in bits
     double value = 0.0;
   };
   Found grow(const Box& seed) const;
+
+  /// Scores, `WindowScores`, if pixels of these colours are window.
+  WindowScores scoresOf(const Histogram& inside) const;
 
  private:
   int width() const { return static_cast<int>(image_.colors.cols()); }
@@ -80,10 +77,9 @@ class GridSearch {
     return std::max(kLeastPixels, (kLeastTexels + image_.step - 1) / image_.step);
   }
   void count(const Box& box, Histogram& histogram) const;
-  void seedsOf(const IntegralImage& levels, std::vector<Seed>& seeds) const;
-  WindowScores scoresOf(const Histogram& inside) const;
+  void seedsOf(const IntegralImage& levels, std::vector<Box>& seeds) const;
   std::vector<Box> windowsOf(const BandGrid& bands, const WindowScores& scores) const;
-  void measure(const std::vector<Box>& windows, Found& found) const;
+  void measure(Found& found) const;
 
   const PaletteImage& image_;
   Histogram total_;
@@ -99,7 +95,7 @@ void GridSearch::count(const Box& box, Histogram& histogram) const {
 }
 
 /// Of each size the box that differs most from what is around it.
-void GridSearch::seedsOf(const IntegralImage& levels, std::vector<Seed>& seeds) const {
+void GridSearch::seedsOf(const IntegralImage& levels, std::vector<Box>& seeds) const {
   constexpr double kLadder = 1.3;  // from size to size; bands may be 0.6 to 1.25 as long
   constexpr double kShapes[] = {0.4, 0.6, 0.9, 1.4};  // width over height
   for (double h = leastSide(); h < 0.5 * height(); h *= kLadder) {
@@ -108,7 +104,8 @@ void GridSearch::seedsOf(const IntegralImage& levels, std::vector<Seed>& seeds) 
                      static_cast<int>(std::lround(h))};
       const int frame = size.frame();
       if (size.width < leastSide() || 2 * size.width > width()) continue;
-      Seed best{size, 0.0f};
+      Box best = size;
+      float highest = 0.0f;
       const float inner = static_cast<float>(size.width * size.height);
       const float outer =
           static_cast<float>((size.width + 2 * frame) * (size.height + 2 * frame)) - inner;
@@ -119,17 +116,19 @@ void GridSearch::seedsOf(const IntegralImage& levels, std::vector<Seed>& seeds) 
                            size.height + 2 * frame};
           const float in = levels.sum(box);
           const float contrast = in / inner - (levels.sum(around) - in) / outer;
-          if (contrast > best.contrast) best = {box, contrast};
+          if (contrast <= highest) continue;
+          highest = contrast;
+          best = box;
         }
       }
-      if (best.contrast > 0.0f) seeds.push_back(best);
+      if (highest > 0.0f) seeds.push_back(best);
     }
   }
 }
 
-std::vector<Seed> GridSearch::seeds() const {
+std::vector<Box> GridSearch::seeds() const {
   constexpr double kShares[] = {0.06, 0.12, 0.2, 0.35, 0.5};  // of the facade that is darker
-  std::vector<Seed> seeds;
+  std::vector<Box> seeds;
   for (const double share : kShares) {
     for (const bool dark : {true, false}) {
       double sum = 0.0;
@@ -152,7 +151,6 @@ std::vector<Seed> GridSearch::seeds() const {
   return seeds;
 }
 
-/// Scores, `WindowScores`, if pixels of these colours are window.
 WindowScores GridSearch::scoresOf(const Histogram& inside) const {
   const Histogram outside = total_ - inside;
   const auto shares = [](const Histogram& counts) {  // none is quite impossible
@@ -191,10 +189,10 @@ double entropyBits(const Histogram& counts) {
                    : 0.0;
 }
 
-void GridSearch::measure(const std::vector<Box>& windows, Found& found) const {
+void GridSearch::measure(Found& found) const {
   Histogram inside = Histogram::Zero(image_.num_colors);
   Histogram around = inside;
-  for (const Box& box : windows) {
+  for (const Box& box : found.windows) {
     const int frame = box.frame();
     count(box, inside);
     count({box.left - frame, box.top, frame, box.height}, around);
@@ -204,10 +202,9 @@ void GridSearch::measure(const std::vector<Box>& windows, Found& found) const {
   }
   const double in = inside.sum();
   const double all = in + around.sum();
-  if (windows.empty() || all == 0.0) return;
+  if (all == 0.0) return;
   const double apart = in * entropyBits(inside) + (all - in) * entropyBits(around);
-  const auto m = static_cast<double>(windows.size());
-  found.windows = static_cast<int>(windows.size());
+  const auto m = static_cast<double>(found.windows.size());
   found.information = entropyBits(inside + around) - apart / all;
   found.value = all * (found.information - kWorthless) * (m - 1.0) / m;
 }
@@ -220,17 +217,69 @@ GridSearch::Found GridSearch::grow(const Box& seed) const {
   Band column{static_cast<double>(seed.left), static_cast<double>(seed.right())};
   Band row{static_cast<double>(seed.top), static_cast<double>(seed.bottom())};
   for (int turn = 0; turn < kTurns; ++turn) {
-    found.scores = scoresOf(inside);
-    found.bands = fitBandGrid(found.scores, column, row);
-    const std::vector<Box> windows = windowsOf(found.bands, found.scores);
-    if (windows.empty()) return {};
-    measure(windows, found);
+    const WindowScores scores = scoresOf(inside);
+    found.inside = inside;
+    found.bands = fitBandGrid(scores, column, row);
+    found.windows = windowsOf(found.bands, scores);
+    if (found.windows.empty()) return {};
     inside.setZero();
-    for (const Box& box : windows) count(box, inside);
+    for (const Box& box : found.windows) count(box, inside);
     column = found.bands.columns[found.bands.columns.size() / 2];
     row = found.bands.rows[found.bands.rows.size() / 2];
   }
+  measure(found);
   return found;
+}
+
+/// Grids grown from all seeds, at the same time.
+std::vector<GridSearch::Found> growAll(const GridSearch& search, const std::vector<Box>& seeds) {
+  std::vector<GridSearch::Found> found(seeds.size());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(seeds.size()); ++i) {
+    const auto seed = static_cast<std::size_t>(i);
+    found[seed] = search.grow(seeds[seed]);
+  }
+  return found;
+}
+
+/// The first of the grids of greatest value among those that are eligible; null if none is.
+template <typename Eligible>
+const GridSearch::Found* bestOf(const std::vector<GridSearch::Found>& found,
+                                const Eligible& eligible) {
+  const GridSearch::Found* best = nullptr;
+  for (const GridSearch::Found& grid : found) {
+    if (grid.windows.size() < 2 || grid.value <= 0.0 || !eligible(grid)) continue;
+    if (best == nullptr || grid.value > best->value) best = &grid;
+  }
+  return best;
+}
+
+/// What is in common of two boxes, of their union.
+double overlap(const Box& a, const Box& b) {
+  const double width = std::min(a.right(), b.right()) - std::max(a.left, b.left);
+  const double height = std::min(a.bottom(), b.bottom()) - std::max(a.top, b.top);
+  const double both = std::max(0.0, width) * std::max(0.0, height);
+  return both / (a.width * a.height + b.width * b.height - both);
+}
+
+/// On the facade's own raster.
+WindowProposal onRaster(const TextureGrid& grid, const PaletteImage& image,
+                        const GridSearch& search, const GridSearch::Found& found) {
+  const double step = image.step;
+  const auto scaled = [step](std::vector<Band> bands) {
+    for (Band& band : bands) band = {step * band.begin, step * band.end};
+    return bands;
+  };
+  WindowProposal proposal;
+  proposal.bands = {scaled(found.bands.columns), scaled(found.bands.rows)};
+  proposal.scores = WindowScores::Zero(grid.height, grid.width);
+  const WindowScores scores = search.scoresOf(found.inside);
+  for (Eigen::Index y = 0; y < image.step * scores.rows(); ++y) {
+    for (Eigen::Index x = 0; x < image.step * scores.cols(); ++x) {
+      proposal.scores(y, x) = scores(y / image.step, x / image.step);
+    }
+  }
+  return proposal;
 }
 
 double seenShare(const TextureGrid& grid, const std::vector<RectifiedView>& views) {
@@ -255,43 +304,40 @@ WindowProposal proposeGrid(const TextureGrid& grid, const std::vector<RectifiedV
   // Bits. Stains of blank walls give 0.35, and more if but a few places need to be alike.
   constexpr double kLeastOfMany = 0.35;
   constexpr double kLeastOfOne = 0.45;  // more
-  WindowProposal proposal;
-  if (seenShare(grid, views) < kLeastSeen) {
-    proposal.problem = "less than half of it is in the photos";
-    return proposal;
-  }
+  WindowProposal none;
+  none.problem = "less than half of it is in the photos";
+  if (seenShare(grid, views) < kLeastSeen) return none;
   const PaletteImage image = paletteImage(grid, views, kPixels);
   const GridSearch search(image);
-  const std::vector<Seed> seeds = search.seeds();
-  std::vector<GridSearch::Found> found(seeds.size());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(seeds.size()); ++i) {
-    const auto seed = static_cast<std::size_t>(i);
-    found[seed] = search.grow(seeds[seed].box);
-  }
-  const GridSearch::Found* best = nullptr;
-  for (const GridSearch::Found& grown : found) {
-    if (grown.windows < 2) continue;
-    if (grown.information < kLeastOfMany + kLeastOfOne / grown.windows) continue;
-    if (best == nullptr || grown.value > best->value) best = &grown;
-  }
-  if (best == nullptr) {
-    proposal.problem = "nothing on it repeats as windows do";
-    return proposal;
-  }
-  const double step = image.step;
-  const auto scaled = [step](std::vector<Band> bands) {
-    for (Band& band : bands) band = {step * band.begin, step * band.end};
-    return bands;
+  const std::vector<GridSearch::Found> found = growAll(search, search.seeds());
+  const GridSearch::Found* const best = bestOf(found, [](const GridSearch::Found& candidate) {
+    const auto windows = static_cast<double>(candidate.windows.size());
+    return candidate.information >= kLeastOfMany + kLeastOfOne / windows;
+  });
+  none.problem = "nothing on it repeats as windows do";
+  return best == nullptr ? none : onRaster(grid, image, search, *best);
+}
+
+WindowProposal proposeGridWith(const TextureGrid& grid, const std::vector<RectifiedView>& views,
+                               const Band& columns, const Band& rows) {
+  constexpr double kSame = 0.5;  // of the union of mark and window, which may be drawn loosely
+  const PaletteImage image = paletteImage(grid, views, kPixels);
+  const GridSearch search(image);
+  const auto pixels = [&image](double texels) {
+    return static_cast<int>(std::lround(texels / image.step));
   };
-  proposal.bands = {scaled(best->bands.columns), scaled(best->bands.rows)};
-  proposal.scores = WindowScores::Zero(grid.height, grid.width);
-  for (Eigen::Index y = 0; y < image.step * best->scores.rows(); ++y) {
-    for (Eigen::Index x = 0; x < image.step * best->scores.cols(); ++x) {
-      proposal.scores(y, x) = best->scores(y / image.step, x / image.step);
-    }
-  }
-  return proposal;
+  const Box mark{pixels(columns.begin), pixels(rows.begin), std::max(1, pixels(columns.length())),
+                 std::max(1, pixels(rows.length()))};
+  std::vector<Box> seeds = search.seeds();
+  seeds.push_back(mark);
+  const std::vector<GridSearch::Found> found = growAll(search, seeds);
+  const GridSearch::Found* const best = bestOf(found, [&mark](const GridSearch::Found& candidate) {
+    return std::any_of(candidate.windows.begin(), candidate.windows.end(),
+                       [&mark](const Box& window) { return overlap(mark, window) >= kSame; });
+  });
+  WindowProposal none;
+  none.problem = "nothing on it repeats as the marked window does";
+  return best == nullptr ? none : onRaster(grid, image, search, *best);
 }
 
 }  // namespace storey::detail

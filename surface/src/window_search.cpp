@@ -2,6 +2,7 @@
 #include <storey/surface/detail/window_confidence.h>
 #include <storey/surface/detail/window_edges.h>
 #include <storey/surface/detail/window_labels.h>
+#include <storey/surface/detail/window_proposal.h>
 #include <storey/surface/detail/window_search.h>
 
 #include <Eigen/Geometry>
@@ -84,6 +85,18 @@ bool isOnFacade(const TextureGrid& grid, const FacadeWindow& window) {
   return true;
 }
 
+/// Bands of one length may come to overlap: of two windows that do, the less confident is doubtful.
+void doubtOverlaps(std::vector<FacadeWindow>& windows) {
+  for (FacadeWindow& window : windows) {
+    for (const FacadeWindow& other : windows) {
+      const Eigen::Vector2d common =
+          window.max.cwiseMin(other.max) - window.min.cwiseMax(other.min);
+      const bool overlap = common.minCoeff() > 0.0;
+      if (overlap && other.confidence > window.confidence) window.doubtful = true;
+    }
+  }
+}
+
 std::vector<FacadeWindow> windowsOf(const TextureGrid& grid, const BandGrid& bands,
                                     const WindowScores& scores) {
   constexpr double kLeastConfidence = 0.5;
@@ -106,48 +119,34 @@ std::vector<FacadeWindow> windowsOf(const TextureGrid& grid, const BandGrid& ban
       windows.push_back(window);
     }
   }
+  doubtOverlaps(windows);
   return windows;
-}
-
-/// A grid that is learnt in all photos from another one.
-struct Learnt {
-  BandGrid bands;
-  std::vector<WindowScores> scores;  // of each view
-  WindowScores combined;
-};
-
-/// \param combined scores that the other one was found in
-Learnt learn(const TextureGrid& grid, const std::vector<RectifiedView>& views, const BandGrid& from,
-             const WindowScores& combined) {
-  Learnt learnt;
-  if (from.columns.empty() || from.rows.empty()) return learnt;
-  learnt.scores = labelTexels(grid, views, marksOf(grid, from, combined));
-  learnt.combined = combineScores(views, learnt.scores);
-  learnt.bands = fitBandGrid(learnt.combined, from.columns[from.columns.size() / 2],
-                             from.rows[from.rows.size() / 2]);
-  return learnt;
 }
 
 }  // namespace
 
 std::vector<FacadeWindow> searchFrom(const TextureGrid& grid,
                                      const std::vector<RectifiedView>& views, const BandGrid& first,
-                                     const WindowScores& scores) {
-  const Learnt learnt = learn(grid, views, first, scores);
-  if (learnt.bands.columns.empty() || learnt.bands.rows.empty()) return {};
-  return windowsOf(grid, fitEdges(views, learnt.scores, learnt.bands), learnt.combined);
+                                     const WindowScores& combined) {
+  if (first.columns.empty() || first.rows.empty()) return {};
+  const std::vector<WindowScores> scores = labelTexels(grid, views, marksOf(grid, first, combined));
+  const WindowScores all = combineScores(views, scores);
+  const BandGrid bands =
+      fitBandGrid(all, first.columns[first.columns.size() / 2], first.rows[first.rows.size() / 2]);
+  if (bands.columns.empty() || bands.rows.empty()) return {};
+  return windowsOf(grid, fitEdges(views, scores, bands), all);
 }
 
 std::vector<FacadeWindow> searchMarked(const TextureGrid& grid,
                                        const std::vector<RectifiedView>& views, std::size_t photo,
                                        const std::vector<Eigen::Vector2d>& outline) {
+  const BandGrid mark = bandsAbout(grid, outline);
+  const WindowProposal repeated = proposeGridWith(grid, views, mark.columns[0], mark.rows[0]);
+  if (repeated.problem.empty()) return searchFrom(grid, views, repeated.bands, repeated.scores);
   const std::vector<RectifiedView> drawn = drawnOn(views, photo);
   const WindowScores scores =
       combineScores(drawn, labelTexels(grid, drawn, marksOf(grid, outline)));
-  const BandGrid mark = bandsAbout(grid, outline);
-  const BandGrid first = fitBandGrid(scores, mark.columns[0], mark.rows[0]);
-  const Learnt learnt = learn(grid, views, first, scores);
-  return searchFrom(grid, views, learnt.bands, learnt.combined);
+  return searchFrom(grid, views, fitBandGrid(scores, mark.columns[0], mark.rows[0]), scores);
 }
 
 }  // namespace storey::detail

@@ -25,8 +25,7 @@ PhotoOptions tenViews(double recess) {
 }
 
 /// The windows of all walls, with a mark on each or without any. Those that stand off are cut.
-void findAll(const char* name, double recess, bool marked) {
-  const Rendered rendered(name, tenViews(recess));
+void findAll(const Rendered& rendered, double recess, bool marked) {
   const std::vector<Camera> cameras = rendered.scene.placeCameras();
   const WindowDetection detection(rendered.scene.facades(), rendered.photos);
   PolyhedralModel model = rendered.model;
@@ -41,7 +40,7 @@ void findAll(const char* name, double recess, bool marked) {
     if (painted.empty()) continue;
     compareWindows(grid, painted, measures);
     EXPECT_TRUE(grid.depth_known);
-    EXPECT_NEAR(grid.depth, recess, 0.1 * recess) << name << ", facade " << f;
+    EXPECT_NEAR(grid.depth, recess, 0.1 * recess) << "facade " << f;
     std::vector<FacadeWindow> clear;
     for (const FacadeWindow& w : grid.windows) {
       if (!w.doubtful) clear.push_back(w);
@@ -56,14 +55,19 @@ void findAll(const char* name, double recess, bool marked) {
   EXPECT_TRUE(checkModel(model).ok());
 }
 
-TEST(RenderedWindows, AreFoundFromMarksWhereTheyAreSetBack) { findAll("box", 0.3, true); }
+TEST(RenderedWindows, AreFoundWhereTheyAreSetBack) {
+  const Rendered rendered("box", tenViews(0.3));
+  for (const bool marked : {true, false}) findAll(rendered, 0.3, marked);
+}
 
-TEST(RenderedWindows, AreFoundFromMarksWhereTheyArePainted) { findAll("l_shape", 0.0, true); }
+TEST(RenderedWindows, AreFoundWhereTheyArePainted) {
+  const Rendered rendered("l_shape", tenViews(0.0));
+  for (const bool marked : {true, false}) findAll(rendered, 0.0, marked);
+}
 
-TEST(RenderedWindows, AreFoundByTheirRepetition) { findAll("overhang", 0.3, false); }
-
-TEST(RenderedWindows, AreNotFoundWhereThereAreNone) {
+TEST(RenderedWindows, AreNotProposedWhereThereAreNone) {
   PhotoOptions blank = tenViews(0.0);
+  blank.width = 400;
   blank.window_pitch = 50.0;  // more than the walls have room for
   const Rendered rendered("box", blank);
   const WindowDetection detection(rendered.scene.facades(), rendered.photos);

@@ -201,7 +201,7 @@ TEST_F(WindowEditorTest, AProposalDoesNotReplaceWhatIsThere) {
   EXPECT_EQ(facade().edit.facade, 7u);
 }
 
-TEST_F(WindowEditorTest, ASecondMarkReplacesTheFirst) {
+TEST_F(WindowEditorTest, AMarkOfTheSameWindowReplacesTheFirst) {
   mark();
   click(1.5, 1.5);
   click(0.5, 0.5);
@@ -211,6 +211,21 @@ TEST_F(WindowEditorTest, ASecondMarkReplacesTheFirst) {
   ASSERT_EQ(editor_.facades().size(), 1u);
   EXPECT_EQ(facade().edit.quad[0], EditedWall::pixel(0.5, 0.5));
   EXPECT_TRUE(facade().edit.changes.empty());
+}
+
+TEST_F(WindowEditorTest, AMarkElsewhereOnTheFacadeStaysBesideTheFirst) {
+  mark();
+  click(0.1, 0.1);
+  click(0.8, 0.1);
+  click(0.8, 0.8);
+  click(0.1, 0.8);
+  ASSERT_EQ(editor_.facades().size(), 2u);
+  EXPECT_EQ(editor_.facade(), &editor_.facades()[1]);
+  type("0.7\r");
+  editor_.press('f');
+  EXPECT_EQ(editor_.facade(), &editor_.facades()[0]);
+  EXPECT_EQ(editor_.facade()->depth(), 0.25);
+  EXPECT_EQ(editor_.edit().facades[1].depth, 0.7);
 }
 
 TEST_F(WindowEditorTest, WhatIsNotSavedIsNotLeftAtOnce) {

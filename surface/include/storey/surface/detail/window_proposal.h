@@ -31,4 +31,8 @@ struct WindowProposal {
 /// Frames, not the whole facade: else anything large with colours of its own would win.
 WindowProposal proposeGrid(const TextureGrid& grid, const std::vector<RectifiedView>& views);
 
+/// The same among grids that a marked window is one of.
+WindowProposal proposeGridWith(const TextureGrid& grid, const std::vector<RectifiedView>& views,
+                               const Band& columns, const Band& rows);
+
 }  // namespace storey::detail

@@ -10,9 +10,10 @@
 
 namespace storey::detail {
 
-/// Windows like the one that was marked on one photo. The first grid is learnt from that photo
-/// alone (something may hide the marked window in others), the next two in all photos, each from
-/// the one before. \param outline of the mark, in the facade's frame
+/// Windows like the one that was marked on one photo: from the grid that tells most about the
+/// facade's colours among those that the mark is a window of; where there is none, from what that
+/// photo alone shows to be like the mark, for something may hide the marked window in others.
+/// \param outline of the mark, in the facade's frame
 std::vector<FacadeWindow> searchMarked(const TextureGrid& grid,
                                        const std::vector<RectifiedView>& views, std::size_t photo,
                                        const std::vector<Eigen::Vector2d>& outline);
