@@ -30,8 +30,9 @@ void writePolygonsPly(const std::string& path, const PolygonSoup& soup,
                       PlyEncoding encoding = PlyEncoding::Ascii);
 
 /// Writes polygons as OBJ: an object `shell_k` for each shell, in it a group for each label (wall,
-/// roof, ground, ceiling, window, reveal, with the second group name `hypothetical` for walls not seen).
-/// \param materials name of a library that has a material named like each label, and one with
+/// roof, ground, ceiling, window, reveal, with the second group name `hypothetical` for walls not
+/// seen). \param materials name of a library that has a material named like each label, and one
+/// with
 ///        `_hypothetical` after it; empty: none
 /// \throws Failure (CannotCreate, IoError)
 void writePolygonsObj(const std::string& path, const PolygonSoup& soup,
