@@ -96,8 +96,12 @@ void judgeNormals(const RawCloud& raw, LoadedCloud& loaded) {
 
 LoadedCloud readCloud(const std::string& path, const CloudReaderOptions& options) {
   InputFile file(path, options.max_bytes);
-  RawCloud raw = readRawCloud(file, options.max_memory);
-  const std::size_t turned = turnToViewers(path, options.max_memory, raw);
+  const ReadLimits& limits = options.limits;
+  RawCloud raw = readRawCloud(file, hasVisibility(path) ? limits.wholeFile() : limits);
+  const std::size_t turned = turnToViewers(path, limits.max_memory, raw);
+  raw.thin(limits.max_points);
+  file.checkMemory(raw.size() * limits.bytes_per_point, limits.max_memory,
+                   std::to_string(raw.size()) + " points");
   LoadedCloud loaded = conditionCloud(raw, file);
   loaded.turned_normals = turned;
   return loaded;
@@ -108,6 +112,7 @@ LoadedCloud conditionCloud(const RawCloud& raw, const InputFile& file) {
   loaded.cloud.reset(new pcl::PointCloud<pcl::PointNormal>);
   loaded.format = raw.format;
   loaded.declared = raw.declared;
+  loaded.thinned_out = raw.declared - raw.size();
   loaded.offset = chooseOffset(raw.positions);
   loaded.cloud->points.reserve(raw.size());
   addPoints(raw, loaded);

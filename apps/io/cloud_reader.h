@@ -34,6 +34,7 @@ struct LoadedCloud {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   bool has_normals = false;
   std::size_t declared = 0;              ///< points that the file declares, all of them read
+  std::size_t thinned_out = 0;           ///< of them, for `ReadLimits::max_points`
   std::size_t dropped_non_finite = 0;    ///< NaN, infinite, or too far out for float distances
   std::size_t collapsed_duplicates = 0;  ///< further points at the place of an earlier one
   std::size_t zero_normals = 0;          ///< normals of the file that cannot be used
@@ -43,7 +44,7 @@ struct LoadedCloud {
 
 struct CloudReaderOptions {
   std::uint64_t max_bytes = kDefaultMaxFileBytes;  ///< largest file that is read, in bytes
-  std::uint64_t max_memory = defaultMaxMemory();   ///< largest memory that reading may take
+  ReadLimits limits;
 };
 
 /// Reads a PCD (ascii, binary, binary_compressed) or PLY (ascii, binary of both byte orders) file,

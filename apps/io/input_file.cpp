@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <utility>
 
 #include "io/failure.h"
@@ -36,6 +38,17 @@ std::uint64_t defaultMaxMemory() {
   const long page_bytes = sysconf(_SC_PAGESIZE);
   if (pages <= 0 || page_bytes <= 0) return std::uint64_t{4} << 30;
   return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes) / 4 * 3;
+}
+
+std::uint64_t availableMemory() {
+  std::ifstream memory("/proc/meminfo");
+  for (std::string line; std::getline(memory, line);) {
+    constexpr std::string_view kName = "MemAvailable:";
+    if (line.compare(0, kName.size(), kName) == 0) {
+      return std::strtoull(line.c_str() + kName.size(), nullptr, 10) * 1024;
+    }
+  }
+  return defaultMaxMemory();
 }
 
 InputFile::InputFile(std::string path, std::uint64_t max_bytes) : path_(std::move(path)) {
@@ -185,7 +198,7 @@ void InputFile::checkMemory(std::uint64_t bytes, std::uint64_t max_memory,
   if (bytes <= max_memory) return;
   fail(purpose + " need " + std::to_string(bytes) + " bytes of memory, the limit is " +
            std::to_string(max_memory),
-       "raise the limit, or thin the cloud out");
+       "thin the cloud out (storey_reconstruct --max-points), or take a larger machine");
 }
 
 }  // namespace storey::io

@@ -28,4 +28,8 @@ constexpr std::uint64_t kDefaultMaxFileBytes = std::uint64_t{64} << 30;
 /// Default of the memory limits: three quarters of the machine's memory, in bytes.
 std::uint64_t defaultMaxMemory();
 
+/// Bytes that a new program can have now, by the kernel's estimate; the default where it gives
+/// none.
+std::uint64_t availableMemory();
+
 }  // namespace storey::io

@@ -68,14 +68,17 @@ std::vector<std::optional<Eigen::Vector3d>> centresOf(const CameraSet& cameras) 
 
 }  // namespace
 
+bool hasVisibility(const std::string& path) {
+  std::error_code ignored;
+  return fs::exists(path + ".vis", ignored);
+}
+
 std::size_t turnToViewers(const std::string& path, std::uint64_t max_memory, RawCloud& raw) {
   const bool patches = !raw.viewers.ends.empty();
-  std::error_code ignored;
-  const std::string visibility = path + ".vis";
-  if (!raw.has_normal_fields || (!patches && !fs::exists(visibility, ignored))) return 0;
+  if (!raw.has_normal_fields || (!patches && !hasVisibility(path))) return 0;
   const std::optional<CameraSet> cameras = findCameras(path, patches);
   if (!cameras) return 0;
-  if (!patches) readVisibility(visibility, max_memory, raw);
+  if (!patches) readVisibility(path + ".vis", max_memory, raw);
   const auto centres = centresOf(*cameras);
   std::size_t num_turned = 0;
   std::size_t next = 0;

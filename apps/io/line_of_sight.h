@@ -8,6 +8,9 @@
 
 namespace storey::io {
 
+/// Whether a file beside the cloud tells which photos saw each of its points.
+bool hasVisibility(const std::string& path);
+
 /// Turns the normals of a cloud to the photos that saw its points, where these and their cameras
 /// are there: the photos of PMVS's patches with the cameras in `../txt`, those of COLMAP's
 /// `fused.ply` in `fused.ply.vis` with the model in the same folder or in `sparse`. A normal is

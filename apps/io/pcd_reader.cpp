@@ -197,12 +197,7 @@ void checkCounts(const InputFile& file, const PcdHeader& header) {
     file.fail("WIDTH " + std::to_string(header.width) + " times HEIGHT " +
               std::to_string(header.height) + " is not POINTS " + std::to_string(header.points));
   }
-  if (header.points == 0) file.fail("declares no points");
-  if (header.points > kMaxPoints) {
-    file.fail("declares " + std::to_string(header.points) + " points, the limit is " +
-                  std::to_string(kMaxPoints),
-              "cut the building out of the cloud");
-  }
+  checkPointCount(file, header.points);
 }
 
 /// Whether the rest of the file can hold what the header declares.
@@ -226,7 +221,7 @@ void checkBody(const InputFile& file, const PcdHeader& header) {
 
 /// The uncompressed body: all numbers of the first field, then all of the second, ...
 std::vector<unsigned char> decompress(InputFile& file, const PcdHeader& header,
-                                      const PointColumns& columns, std::uint64_t max_memory) {
+                                      const PointColumns& columns, const ReadLimits& limits) {
   const unsigned char* const sizes = file.take(8);
   const auto compressed = static_cast<std::uint64_t>(decodeScalar(sizes, Scalar::UInt32, false));
   const auto full = static_cast<std::uint64_t>(decodeScalar(sizes + 4, Scalar::UInt32, false));
@@ -239,7 +234,9 @@ std::vector<unsigned char> decompress(InputFile& file, const PcdHeader& header,
     file.failAtByte("the compressed body is to become " + std::to_string(full) +
                     " bytes, the points need " + std::to_string(expected));
   }
-  file.checkMemory(compressed + full + loaderBytes(header.points, columns), max_memory,
+  const std::uint64_t kept = std::min(header.points, limits.max_points);
+  const std::uint64_t each = kLoaderBytesPerPoint + sizeof(double) * columns.extra_names.size();
+  file.checkMemory(compressed + full + kept * each, limits.max_memory,
                    std::to_string(header.points) + " points");
   std::vector<unsigned char> body(full);
   const unsigned char* const packed = file.take(compressed);
@@ -250,9 +247,9 @@ std::vector<unsigned char> decompress(InputFile& file, const PcdHeader& header,
 }
 
 void readCompressed(InputFile& file, const PcdHeader& header, const PointColumns& columns,
-                    std::uint64_t max_memory, RawCloud& raw) {
-  const std::vector<unsigned char> body = decompress(file, header, columns, max_memory);
-  raw.begin(header.points, columns);
+                    const ReadLimits& limits, RawCloud& raw) {
+  const std::vector<unsigned char> body = decompress(file, header, columns, limits);
+  raw.begin(header.points, columns, limits);
   std::vector<double> values(columns.field.size());
   for (std::uint64_t i = 0; i < header.points; ++i) {
     for (std::size_t c = 0; c < values.size(); ++c) {
@@ -266,23 +263,21 @@ void readCompressed(InputFile& file, const PcdHeader& header, const PointColumns
 
 }  // namespace
 
-RawCloud readPcd(InputFile& file, std::uint64_t max_memory,
+RawCloud readPcd(InputFile& file, const ReadLimits& limits,
                  const std::vector<std::string>& extras) {
   PcdHeader header = readHeader(file);
   layOut(file, header);
   const PointColumns columns = findPointColumns(header.fields, file, extras);
   checkCounts(file, header);
   checkBody(file, header);
-  file.checkMemory(loaderBytes(header.points, columns), max_memory,
-                   std::to_string(header.points) + " points");
-
+  checkPoints(file, header.points, limits, columns.extra_names.size());
   RawCloud raw;
   raw.notes = header.notes;
   raw.format = "pcd " + header.data + " " + nameOf(header.fields[columns.field[0]].type);
   if (header.data == "binary_compressed") {
-    readCompressed(file, header, columns, max_memory, raw);
+    readCompressed(file, header, columns, limits, raw);
   } else {
-    raw.begin(header.points, columns);
+    raw.begin(header.points, columns, limits);
     if (header.data == "binary") {
       readBinaryRecords(file, header.fields, columns, false, raw);
     } else {

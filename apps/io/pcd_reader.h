@@ -12,6 +12,6 @@ namespace storey::io {
 /// Every size is checked against the size of the file before memory is taken. The keywords must
 /// come at most once and in the order of the format; VIEWPOINT must be finite and is not applied.
 /// \param extras names of further fields to read, where the file has them
-RawCloud readPcd(InputFile& file, std::uint64_t max_memory, const std::vector<std::string>& extras);
+RawCloud readPcd(InputFile& file, const ReadLimits& limits, const std::vector<std::string>& extras);
 
 }  // namespace storey::io

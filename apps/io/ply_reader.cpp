@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/ply_reader.h"
 
-#include "io/limits.h"
 #include "io/ply_header.h"
 #include "io/ply_rows.h"
 
@@ -37,20 +36,13 @@ void readRowByRow(InputFile& file, const PlyElement& vertex, PlyFormat format,
 }
 
 RawCloud readVertices(InputFile& file, const PlyElement& vertex, PlyFormat format,
-                      std::uint64_t max_memory, const std::vector<std::string>& extras) {
-  if (vertex.count == 0) file.fail("declares no points");
-  if (vertex.count > kMaxPoints) {
-    file.fail("declares " + std::to_string(vertex.count) + " points, the limit is " +
-                  std::to_string(kMaxPoints),
-              "cut the building out of the cloud");
-  }
+                      const ReadLimits& limits, const std::vector<std::string>& extras) {
   const std::vector<PointField> fields = fieldsOf(vertex);
   const PointColumns columns = findPointColumns(fields, file, extras);
-  file.checkMemory(loaderBytes(vertex.count, columns), max_memory,
-                   std::to_string(vertex.count) + " points");
+  checkPoints(file, vertex.count, limits, columns.extra_names.size());
   RawCloud raw;
   raw.format = std::string("ply ") + nameOf(format) + " " + nameOf(fields[columns.field[0]].type);
-  raw.begin(vertex.count, columns);
+  raw.begin(vertex.count, columns, limits);
   if (vertex.hasLists()) {
     readRowByRow(file, vertex, format, columns, raw);
   } else if (format == PlyFormat::Ascii) {
@@ -63,14 +55,14 @@ RawCloud readVertices(InputFile& file, const PlyElement& vertex, PlyFormat forma
 
 }  // namespace
 
-RawCloud readPlyCloud(InputFile& file, std::uint64_t max_memory,
+RawCloud readPlyCloud(InputFile& file, const ReadLimits& limits,
                       const std::vector<std::string>& extras) {
   const PlyHeader header = readPlyHeader(file);
   RawCloud raw;
   bool found = false;
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex") {
-      raw = readVertices(file, element, header.format, max_memory, extras);
+      raw = readVertices(file, element, header.format, limits, extras);
       found = true;
     } else {
       skipElement(file, element, header.format);

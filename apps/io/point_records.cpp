@@ -65,14 +65,17 @@ PointColumns findPointColumns(const std::vector<PointField>& fields, const Input
   return columns;
 }
 
-void RawCloud::begin(std::uint64_t num_points, const PointColumns& columns) {
+void RawCloud::begin(std::uint64_t num_points, const PointColumns& columns,
+                     const ReadLimits& limits) {
   declared = num_points;
+  limitPoints(limits.max_points);
   has_normal_fields = columns.has_normals;
-  positions.reserve(3 * num_points);
-  if (has_normal_fields) normals.reserve(3 * num_points);
+  const std::uint64_t at_once = std::min(num_points, limits.max_points + 1);
+  positions.reserve(3 * at_once);
+  if (has_normal_fields) normals.reserve(3 * at_once);
   for (const std::string& name : columns.extra_names) {
     extras.push_back({name, {}});
-    extras.back().values.reserve(num_points);
+    extras.back().values.reserve(at_once);
   }
 }
 
@@ -83,10 +86,24 @@ void RawCloud::add(const std::vector<double>& values) {
     for (; next < 6; ++next) normals.push_back(static_cast<float>(values[next]));
   }
   for (ExtraColumn& extra : extras) extra.values.push_back(values[next++]);
+  settle();
 }
 
-std::uint64_t loaderBytes(std::uint64_t num_points, const PointColumns& columns) {
-  return num_points * (kLoaderBytesPerPoint + sizeof(double) * columns.extra_names.size());
+void checkPointCount(const InputFile& file, std::uint64_t num_points) {
+  if (num_points == 0) file.fail("declares no points");
+  if (num_points > kMaxPoints) {
+    file.fail("declares " + std::to_string(num_points) + " points, the limit is " +
+                  std::to_string(kMaxPoints),
+              "cut the building out of the cloud");
+  }
+}
+
+void checkPoints(const InputFile& file, std::uint64_t num_points, const ReadLimits& limits,
+                 std::size_t num_extras) {
+  checkPointCount(file, num_points);
+  const std::uint64_t each = limits.bytes_per_point + sizeof(double) * num_extras;
+  file.checkMemory(std::min(num_points, limits.max_points) * each, limits.max_memory,
+                   std::to_string(num_points) + " points");
 }
 
 std::optional<std::string> noteOf(std::string_view comment) {

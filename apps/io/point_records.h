@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/input_file.h"
+#include "io/limits.h"
 #include "io/scalar.h"
 
 namespace storey::io {
@@ -50,7 +51,13 @@ struct Viewers {
   std::vector<std::size_t> ends;      ///< for each point, where its photos end
 };
 
-/// Points as they are in the file: double precision, nothing dropped.
+struct ReadLimits;
+
+/// Points as they are in the file, in double precision: all of them, or where that would be too
+/// many a sample at random. A position belongs to it if a hash of its bits is below a limit, which
+/// falls by an eighth each time that there are too many. So the sample depends on the set of points
+/// and the greatest number alone, not on their order, and it is the same whether the points are
+/// thinned while they are read or afterwards.
 struct RawCloud {
   std::vector<double> positions;    ///< 3 a point
   std::vector<float> normals;       ///< 3 a point, or none at all
@@ -62,18 +69,48 @@ struct RawCloud {
   std::string format;
 
   /// Makes ready for points of these columns.
-  void begin(std::uint64_t num_points, const PointColumns& columns);
+  void begin(std::uint64_t num_points, const PointColumns& columns, const ReadLimits& limits);
   /// \param values parallel to the columns
   void add(const std::vector<double>& values);
   std::uint64_t size() const { return positions.size() / 3; }
+
+  /// To be called after each point, where they are thinned while they are read.
+  void settle();
+  /// Leaves a sample of at most so many points, without their viewers.
+  void thin(std::uint64_t max_points);
+  /// What `settle` thins to.
+  void limitPoints(std::uint64_t max_points) { max_points_ = max_points; }
+
+ private:
+  static constexpr std::uint64_t kAllKeys = ~std::uint64_t{0};
+
+  void cut(std::size_t num_points);
+
+  std::uint64_t max_points_ = kMaxPoints;
+  std::uint64_t key_limit_ = kAllKeys;
 };
 
 /// Bytes of memory that reading takes for each point at its peak: raw position (24) and normal
 /// (12), the finished point (48), and the table that finds duplicates (12 + 16).
 constexpr std::uint64_t kLoaderBytesPerPoint = 112;
 
-/// The same with the columns that were asked for.
-std::uint64_t loaderBytes(std::uint64_t num_points, const PointColumns& columns);
+/// What reading may take.
+struct ReadLimits {
+  std::uint64_t max_memory = defaultMaxMemory();         ///< bytes
+  std::uint64_t max_points = kMaxPoints;                 ///< kept: more are thinned to so many
+  std::uint64_t bytes_per_point = kLoaderBytesPerPoint;  ///< of those that are kept
+
+  /// For formats that are thinned only when they are read.
+  ReadLimits wholeFile() const { return {max_memory, kMaxPoints, kLoaderBytesPerPoint}; }
+};
+
+/// Fails if so many points cannot be.
+void checkPointCount(const InputFile& file, std::uint64_t num_points);
+
+/// Fails if so many points cannot be, or not with this memory. \param num_extras columns that were
+/// asked for
+void checkPoints(const InputFile& file, std::uint64_t num_points, const ReadLimits& limits,
+                 std::size_t num_extras = 0);
 
 /// What follows "storey " in a comment of a header; nothing if the comment is not ours.
 /// \param comment without the sign that makes it one

@@ -5,7 +5,6 @@
 
 #include "io/cloud_writer.h"
 #include "io/formats/import_formats.h"
-#include "io/limits.h"
 #include "io/pcd_reader.h"
 #include "io/ply_reader.h"
 #include "io/scan.h"
@@ -30,36 +29,25 @@ bool isXyz(InputFile& file, std::string_view start) {
 
 }  // namespace
 
-RawCloud readRawCloud(InputFile& file, std::uint64_t max_memory,
+RawCloud readRawCloud(InputFile& file, const ReadLimits& limits,
                       const std::vector<std::string>& extras) {
   const std::string start(file.peek(64));
   if (startsWith(start, "ply\n") || startsWith(start, "ply\r\n")) {
-    return readPlyCloud(file, max_memory, extras);
+    return readPlyCloud(file, limits, extras);
   }
-  if (startsWith(start, "LASF")) return readLas(file, max_memory);
-  if (startsWith(start, "# vtk DataFile")) return readVtkPoints(file, max_memory);
-  if (startsWith(start, "PATCHES")) return readPatches(file, max_memory);
+  if (startsWith(start, "LASF")) return readLas(file, limits);
+  if (startsWith(start, "# vtk DataFile")) return readVtkPoints(file, limits);
+  if (startsWith(start, "PATCHES")) return readPatches(file, limits);
   const bool is_xyz = isXyz(file, start);
   for (const char* first : {"# .PCD", "VERSION", "FIELDS", "COLUMNS", "#"}) {
     const bool any_comment = std::string_view(first) == "#";
     if (startsWith(start, first) && !(any_comment && is_xyz)) {
-      return readPcd(file, max_memory, extras);
+      return readPcd(file, limits, extras);
     }
   }
-  if (is_xyz) return readXyz(file, max_memory);
+  if (is_xyz) return readXyz(file, limits);
   file.fail("is neither PCD nor PLY, nor of another format that is read",
             "convert it to PLY or PCD (LAS, VTK, PMVS patches and lines 'x y z' are read too)");
-}
-
-void checkPointCount(const InputFile& file, std::uint64_t num_points, std::uint64_t max_memory) {
-  if (num_points == 0) file.fail("declares no points");
-  if (num_points > kMaxPoints) {
-    file.fail("declares " + std::to_string(num_points) + " points, the limit is " +
-                  std::to_string(kMaxPoints),
-              "cut the building out of the cloud");
-  }
-  file.checkMemory(num_points * kLoaderBytesPerPoint, max_memory,
-                   std::to_string(num_points) + " points");
 }
 
 }  // namespace storey::io

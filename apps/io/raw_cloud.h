@@ -11,9 +11,10 @@
 namespace storey::io {
 
 /// Reads a cloud of any format we know, told apart by its content: points as they are in the file.
-/// \param extras names of further fields to read, where the file has them
-/// \throws Failure (BadInput)
-RawCloud readRawCloud(InputFile& file, std::uint64_t max_memory,
+/// Points beyond `ReadLimits::max_points` are thinned while they are read, but for VTK and PMVS's
+/// patches, which are all there. \param extras names of further fields to read, where the file has
+/// them \throws Failure (BadInput)
+RawCloud readRawCloud(InputFile& file, const ReadLimits& limits,
                       const std::vector<std::string>& extras = {});
 
 }  // namespace storey::io

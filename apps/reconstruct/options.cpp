@@ -40,6 +40,10 @@ bool parseOptions(int argc, char** argv, Options& o) {
   line.text("output,o", o.output_directory, "directory for the results; made if missing");
   std::string formats = "ply,obj,geojson,html";
   line.text("formats", formats, formatsHelp());
+  line.whole(
+      "max-points", o.max_points, 0,
+      "thin a larger cloud to about so many points while it is read: a sample at random, the "
+      "same for the same cloud [0 = take all of them]");
   stages::declareAttitude(line, o.attitude);
   stages::declareKeptShare(line, o.kept_share);
   stages::declareMethod(line, o.method);

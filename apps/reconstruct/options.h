@@ -17,6 +17,7 @@ using stages::SpaceSide;
 /// Everything a user can set. Lengths are in the cloud's unit; 0 derives them from the cloud.
 struct Options {
   std::string input;
+  int max_points = 0;  ///< a larger cloud is thinned to so many; 0: no limit
   std::string output_directory;
   std::vector<exports::Format> formats;
   stages::AttitudeOptions attitude;

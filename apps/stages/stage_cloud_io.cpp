@@ -146,10 +146,10 @@ StageCloud readStageCloud(const std::string& path) {
   io::InputFile file(path, options.max_bytes);
   std::vector<std::string> extras = {"curvature", "intensity"};
   extras.insert(extras.end(), kGroupNames.begin(), kGroupNames.end());
-  io::RawCloud raw = io::readRawCloud(file, options.max_memory, extras);
+  io::RawCloud raw = io::readRawCloud(file, options.limits, extras);
   const std::optional<StageState> state = fromNotes(raw.notes, file);
   if (!state) {
-    io::turnToViewers(path, options.max_memory, raw);
+    io::turnToViewers(path, options.limits.max_memory, raw);
     io::LoadedCloud loaded = io::conditionCloud(raw, file);
     return fromLoaded(loaded, path);
   }

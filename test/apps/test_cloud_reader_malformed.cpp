@@ -141,7 +141,7 @@ TEST(MalformedClouds, LimitsAreHeldAndNamed) {
   small_file.max_bytes = 12000;
   EXPECT_THROW(io::readCloud(path, small_file), Failure);
   io::CloudReaderOptions small_memory;
-  small_memory.max_memory = 12000;
+  small_memory.limits.max_memory = 12000;
   try {
     io::readCloud(path, small_memory);
     FAIL() << "the limit was passed";
@@ -160,7 +160,7 @@ TEST(MalformedClouds, HugeSparseFileIsRefusedBeforeMemoryIsTaken) {
   ASSERT_EQ(truncate(path.c_str(), static_cast<off_t>(header.size() + 12ull * 1400000000)), 0);
   const std::string answer = inChild([&] {
     io::CloudReaderOptions options;
-    options.max_memory = std::uint64_t{8} << 30;
+    options.limits.max_memory = std::uint64_t{8} << 30;
     try {
       io::readCloud(path, options);
     } catch (const Failure& failure) {

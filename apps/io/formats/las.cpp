@@ -92,7 +92,7 @@ std::vector<PointField> fieldsOf(std::size_t record_bytes) {
 
 }  // namespace
 
-RawCloud readLas(InputFile& file, std::uint64_t max_memory) {
+RawCloud readLas(InputFile& file, const ReadLimits& limits) {
   const std::string start(file.peek(kOldHeaderBytes));  // a copy: the next look may move it
   if (start.size() < kOldHeaderBytes) file.fail("ends within its header");
   const bool wide = start[kVersion + 1] == 4;
@@ -107,7 +107,7 @@ RawCloud readLas(InputFile& file, std::uint64_t max_memory) {
   }
   const std::uint64_t record_bytes = header.whole(kRecordBytes, Scalar::UInt16);
   const std::uint64_t num_points = header.numPoints();
-  checkPointCount(file, num_points, max_memory);
+  checkPoints(file, num_points, limits);
   if (num_points > (file.size() - first) / record_bytes) {
     file.fail("declares " + std::to_string(num_points) + " points of " +
               std::to_string(record_bytes) + " bytes, more than it holds");
@@ -116,7 +116,7 @@ RawCloud readLas(InputFile& file, std::uint64_t max_memory) {
   const std::vector<PointField> fields = fieldsOf(record_bytes);
   const PointColumns columns = findPointColumns(fields, file, {});
   RawCloud raw;
-  raw.begin(num_points, columns);
+  raw.begin(num_points, columns, limits);
   raw.format = "las 1." + std::to_string(header.minorVersion()) + " format " +
                std::to_string(header.format());
   readBinaryRecords(file, fields, columns, false, raw);

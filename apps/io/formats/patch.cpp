@@ -40,18 +40,18 @@ void readPhotos(TextNumbers& numbers, RawCloud& raw) {
 
 }  // namespace
 
-RawCloud readPatches(InputFile& file, std::uint64_t max_memory) {
+RawCloud readPatches(InputFile& file, const ReadLimits& limits) {
   expectWord(file, "PATCHES");
   TextNumbers numbers(file);
   const std::uint64_t num_points = numbers.nextCount(kMaxPoints);
   numbers.expectLineEnd();
-  checkPointCount(file, num_points, max_memory);
+  checkPoints(file, num_points, limits.wholeFile());
   if (num_points > file.remaining() / kLeastBytes + 1) {
     file.fail("declares " + std::to_string(num_points) + " patches, more than it holds");
   }
   // A photo takes two bytes of the file at least, and four of memory.
-  file.checkMemory(num_points * (kLoaderBytesPerPoint + 8) + 2 * file.remaining(), max_memory,
-                   std::to_string(num_points) + " patches");
+  file.checkMemory(num_points * (kLoaderBytesPerPoint + 8) + 2 * file.remaining(),
+                   limits.max_memory, std::to_string(num_points) + " patches");
   RawCloud raw;
   raw.format = "pmvs patches";
   raw.has_normal_fields = true;

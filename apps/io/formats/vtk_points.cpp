@@ -14,7 +14,7 @@ using Words = std::vector<std::string_view>;
 
 class VtkReader {
  public:
-  VtkReader(InputFile& file, std::uint64_t max_memory) : file_(file), max_memory_(max_memory) {}
+  VtkReader(InputFile& file, const ReadLimits& limits) : file_(file), limits_(limits) {}
 
   RawCloud run() {
     readHeader();
@@ -81,7 +81,7 @@ class VtkReader {
     if (words.size() != 3 || words[0] != "POINTS") file_.failAtLine("is not 'POINTS n type'");
     raw_.declared = countOf(words[1]);
     const Scalar type = typeOf(words[2]);
-    checkPointCount(file_, raw_.declared, max_memory_);
+    checkPoints(file_, raw_.declared, limits_.wholeFile());
     raw_.format = std::string("vtk ") + (binary_ ? "binary " : "ascii ") + nameOf(type);
     readNumbers(3 * raw_.declared, type, [&](double x) { raw_.positions.push_back(x); });
   }
@@ -111,7 +111,7 @@ class VtkReader {
   }
 
   InputFile& file_;
-  std::uint64_t max_memory_;
+  const ReadLimits& limits_;
   bool binary_ = false;
   bool old_ = true;
   Words section_;
@@ -120,8 +120,8 @@ class VtkReader {
 
 }  // namespace
 
-RawCloud readVtkPoints(InputFile& file, std::uint64_t max_memory) {
-  return VtkReader(file, max_memory).run();
+RawCloud readVtkPoints(InputFile& file, const ReadLimits& limits) {
+  return VtkReader(file, limits).run();
 }
 
 }  // namespace storey::io

@@ -28,7 +28,9 @@ std::size_t findNormal(const std::vector<double>& row) {
 
 class XyzReader {
  public:
-  XyzReader(InputFile& file, std::uint64_t max_memory) : file_(file), max_memory_(max_memory) {}
+  XyzReader(InputFile& file, const ReadLimits& limits) : file_(file), limits_(limits) {
+    raw_.limitPoints(limits.max_points);
+  }
 
   RawCloud run() {
     std::string_view line;
@@ -88,8 +90,9 @@ class XyzReader {
       for (int axis = 0; axis < 3; ++axis) raw_.normals.push_back(static_cast<float>(n[axis]));
       num_units_ += isUnit(n[0], n[1], n[2]) ? 1 : 0;
     }
+    raw_.settle();
     if (++raw_.declared % kCheckEvery == 0) {
-      checkPointCount(file_, raw_.declared + kCheckEvery, max_memory_);
+      checkPoints(file_, raw_.declared + kCheckEvery, limits_);
     }
   }
 
@@ -107,7 +110,7 @@ class XyzReader {
   }
 
   InputFile& file_;
-  std::uint64_t max_memory_;
+  const ReadLimits& limits_;
   RawCloud raw_;
   std::string text_;
   std::vector<double> row_;
@@ -119,8 +122,8 @@ class XyzReader {
 
 }  // namespace
 
-RawCloud readXyz(InputFile& file, std::uint64_t max_memory) {
-  return XyzReader(file, max_memory).run();
+RawCloud readXyz(InputFile& file, const ReadLimits& limits) {
+  return XyzReader(file, limits).run();
 }
 
 }  // namespace storey::io

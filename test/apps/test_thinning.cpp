@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "io/cloud_reader.h"
+#include "io/failure.h"
+#include "reconstruct/pipeline.h"
+#include "synth/buildings.h"
+#include "synth/cloud_writer.h"
+#include "synth/sampling.h"
+#include "temporary_files.h"
+
+namespace storey {
+namespace {
+
+using test::TemporaryDirectory;
+using Place = std::array<float, 3>;
+
+synth::SyntheticCloud sample(std::size_t points) {
+  synth::SamplingOptions sampling;
+  sampling.points = points;
+  return synth::sampleBuilding(synth::makeBuilding("l_shape").layers, sampling);
+}
+
+io::LoadedCloud readThinned(const std::string& path, std::uint64_t max_points) {
+  io::CloudReaderOptions options;
+  options.limits.max_points = max_points;
+  return io::readCloud(path, options);
+}
+
+std::vector<Place> placesOf(const io::LoadedCloud& loaded) {
+  std::vector<Place> places;
+  for (const pcl::PointNormal& p : *loaded.cloud) places.push_back({p.x, p.y, p.z});
+  return places;
+}
+
+/// The points of a cloud that are at some places, in its order.
+synth::SyntheticCloud pointsAt(const std::vector<Place>& places,
+                               const synth::SyntheticCloud& cloud) {
+  const std::set<Place> wanted(places.begin(), places.end());
+  synth::SyntheticCloud part;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3f p = cloud.positions[i].cast<float>();
+    if (wanted.count({p.x(), p.y(), p.z()}) == 0) continue;
+    part.positions.push_back(cloud.positions[i]);
+    part.normals.push_back(cloud.normals[i]);
+    part.sources.push_back(cloud.sources[i]);
+  }
+  return part;
+}
+
+reconstruct::Result reconstructFile(const std::string& path, int max_points) {
+  reconstruct::Options options;
+  options.input = path;
+  options.max_points = max_points;
+  return reconstruct::reconstruct(options);
+}
+
+// Each step leaves out an eighth: more than 7/8 of the limit stay, but for chance (100 points are
+// more than ten deviations of the number below a limit).
+TEST(Thinning, KeepsAboutTheLimitInTheOrderOfTheFile) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("cloud.ply");
+  synth::writeCloudPly(path, sample(20000), false, true);
+  const io::LoadedCloud whole = io::readCloud(path);
+  const io::LoadedCloud thinned = readThinned(path, 2000);
+  EXPECT_LE(thinned.cloud->size(), 2000u);
+  EXPECT_GE(thinned.cloud->size(), 1650u);
+  EXPECT_EQ(thinned.declared, 20000u);
+  EXPECT_EQ(thinned.thinned_out, 20000u - thinned.cloud->size());
+  const std::vector<Place> all = placesOf(whole);
+  auto next = all.begin();
+  for (const Place& place : placesOf(thinned)) {
+    next = std::find(next, all.end(), place);
+    ASSERT_NE(next, all.end());
+  }
+  EXPECT_EQ(readThinned(path, 20000).cloud->size(), whole.cloud->size());
+}
+
+TEST(Thinning, DoesNotDependOnTheOrderOfThePoints) {
+  const TemporaryDirectory directory;
+  synth::SyntheticCloud cloud = sample(20000);
+  synth::writeCloudPly(directory.file("a.ply"), cloud, false, false);
+  std::mt19937 random(5);
+  std::shuffle(cloud.positions.begin(), cloud.positions.end(), random);
+  synth::writeCloudPly(directory.file("b.ply"), cloud, false, false);
+  const auto placesIn = [&](const char* name) {
+    const std::vector<Place> places = placesOf(readThinned(directory.file(name), 1500));
+    return std::set<Place>(places.begin(), places.end());
+  };
+  EXPECT_EQ(placesIn("a.ply"), placesIn("b.ply"));
+}
+
+// Of each half of the building (in x) as large a share as of the whole, to four deviations.
+TEST(Thinning, IsFair) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("cloud.ply");
+  synth::writeCloudPly(path, sample(20000), false, true);
+  const auto shareBelow = [](const std::vector<Place>& places, float x) {
+    const auto below = std::count_if(places.begin(), places.end(),
+                                     [=](const Place& place) { return place[0] < x; });
+    return static_cast<double>(below) / static_cast<double>(places.size());
+  };
+  const std::vector<Place> all = placesOf(io::readCloud(path));
+  const std::vector<Place> some = placesOf(readThinned(path, 4000));
+  for (const float x : {-8.0f, -2.0f, 3.0f, 9.0f}) {
+    const double share = shareBelow(all, x);
+    const double deviation = std::sqrt(share * (1.0 - share) / static_cast<double>(some.size()));
+    EXPECT_NEAR(shareBelow(some, x), share, 4.0 * deviation) << x;
+  }
+}
+
+TEST(Thinning, MemoryIsThatOfThePointsKept) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("cloud.ply");
+  synth::writeCloudPly(path, sample(20000), false, true);
+  io::CloudReaderOptions options;
+  options.limits.bytes_per_point = 450;
+  options.limits.max_memory = 450 * 2000;
+  EXPECT_THROW(io::readCloud(path, options), io::Failure);
+  options.limits.max_points = 2000;
+  EXPECT_LE(io::readCloud(path, options).cloud->size(), 2000u);
+}
+
+// A tenth of the points gives the same polygons, and the very model of a file of just that tenth.
+TEST(Thinning, ModelIsThatOfTheSample) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("cloud.ply");
+  const std::string part = directory.file("part.ply");
+  const synth::SyntheticCloud cloud = sample(300000);
+  synth::writeCloudPly(path, cloud, false, true);
+  synth::writeCloudPly(part, pointsAt(placesOf(readThinned(path, 30000)), cloud), false, true);
+  const PolyhedralModel whole = reconstructFile(path, 0).model.model;
+  const reconstruct::Result thinned = reconstructFile(path, 30000);
+  const PolyhedralModel& model = thinned.model.model;
+  EXPECT_TRUE(thinned.model.check.ok());
+  EXPECT_EQ(model.faces.size(), whole.faces.size());
+  EXPECT_EQ(model.vertices.size(), whole.vertices.size());
+  const PolyhedralModel of_part = reconstructFile(part, 0).model.model;
+  EXPECT_EQ(model.vertices, of_part.vertices);
+  // The smallest wall has 3000 points: its plane is known to noise / sqrt(3000) in the middle and
+  // to twice that at its ends, where it meets another one; five deviations.
+  const double far = 5.0 * 2.0 * std::sqrt(2.0) * 0.1 / std::sqrt(3000.0);
+  for (const Eigen::Vector3d& vertex : model.vertices) {
+    double nearest = 1e9;
+    for (const Eigen::Vector3d& other : whole.vertices) {
+      nearest = std::min(nearest, (vertex - other).norm());
+    }
+    EXPECT_LT(nearest, far);
+  }
+}
+
+}  // namespace
+}  // namespace storey
