@@ -108,9 +108,9 @@ class Labeling {
     result_.levels = findLevels(evidence_);
     label();
     if (!steps_.second_pass) return;
-    const std::vector<PlanLine> used =
-        distinct(refitUsedLines(result_.plan, evidence_, result_.blocks, points_, scale_.noise),
-                 scale_.noise, box_);
+    const std::vector<PlanLine> used = distinct(
+        refitUsedLines(result_.plan, evidence_, result_.blocks, points_, scale_.noise, threads_),
+        scale_.noise, box_);
     if (used.size() < 3) return;
     arrange(used);
     label();
@@ -136,7 +136,7 @@ class Labeling {
  private:
   void arrange(const std::vector<PlanLine>& lines) {
     result_.plan = arrangeLines(lines, box_.low, box_.high, kCornerTolerance * scale_.noise);
-    evidence_ = gatherEvidence(result_.plan, points_, scale_, steps_.saturated_tiles);
+    evidence_ = gatherEvidence(result_.plan, points_, scale_, steps_.saturated_tiles, threads_);
   }
 
   void prune() {

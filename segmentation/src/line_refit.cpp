@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/line_refit.h>
+#include <storey/segmentation/detail/point_blocks.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,44 +35,90 @@ std::vector<Stretch> stretchesOf(const LineArrangement& plan, const CellBlock& b
   return stretches;
 }
 
+// The stretches of each block, and which of them a point is of.
+class StretchFinder {
+ public:
+  StretchFinder(const LineArrangement& plan, const WallEvidence& evidence,
+                const std::vector<CellBlock>& blocks, double gate)
+      : evidence_(evidence), blocks_(blocks), gate_(gate), used_(plan.lines.size(), 0) {
+    for (const CellBlock& block : blocks) {
+      stretches_.push_back(stretchesOf(plan, block));
+      for (const Stretch& stretch : stretches_.back()) used_[stretch.line] = 1;
+    }
+  }
+
+  bool isUsed(std::size_t line) const { return used_[line] != 0; }
+
+  // Whether points of a run may be near each of the lines.
+  std::vector<char> linesNear(const std::vector<PlanLine>& lines, const PointBlocks& runs,
+                              std::size_t run) const {
+    std::vector<char> near(lines.size(), 0);
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+      near[l] = isUsed(l) && runs.mayBeNear(run, lines[l].normal, lines[l].offset, gate_);
+    }
+    return near;
+  }
+
+  // The line of the nearest stretch that the point confirms; the number of lines if there is none.
+  std::size_t lineOf(const WallPoint& p, const std::vector<PlanLine>& lines,
+                     const std::vector<char>& near) const {
+    const auto bin = static_cast<std::size_t>((p.z - evidence_.z_min) / evidence_.bin);
+    const auto block = std::find_if(blocks_.begin(), blocks_.end(), [&](const CellBlock& b) {
+      return bin < b.last_bin || (bin + 1 >= evidence_.num_bins && &b == &blocks_.back());
+    });
+    std::size_t found = lines.size();
+    if (block == blocks_.end()) return found;
+    double nearest = gate_;
+    for (const Stretch& stretch : stretches_[static_cast<std::size_t>(block - blocks_.begin())]) {
+      if (near[stretch.line] == 0) continue;
+      const PlanLine& line = lines[stretch.line];
+      const double d = std::abs(line.across(p.position));
+      if (d >= nearest || stretch.sense * line.normal.dot(p.normal) < kMinAgreement) continue;
+      const double s = line.tangent().dot(p.position);
+      if (s < stretch.s_min || s > stretch.s_max) continue;
+      nearest = d;
+      found = stretch.line;
+    }
+    return found;
+  }
+
+ private:
+  const WallEvidence& evidence_;
+  const std::vector<CellBlock>& blocks_;
+  double gate_;
+  std::vector<std::vector<Stretch>> stretches_;  // by block
+  std::vector<char> used_;
+};
+
 }  // namespace
 
 std::vector<PlanLine> refitUsedLines(const LineArrangement& plan, const WallEvidence& evidence,
                                      const std::vector<CellBlock>& blocks,
-                                     const std::vector<WallPoint>& points, double noise) {
-  std::vector<std::vector<Stretch>> stretches;
-  std::vector<char> used(plan.lines.size(), 0);
-  for (const CellBlock& block : blocks) {
-    stretches.push_back(stretchesOf(plan, block));
-    for (const Stretch& stretch : stretches.back()) used[stretch.line] = 1;
-  }
+                                     const std::vector<WallPoint>& points, double noise,
+                                     unsigned int threads) {
+  const StretchFinder finder(plan, evidence, blocks, kGate * noise);
+  const PointBlocks runs(points);
   std::vector<PlanLine> lines = plan.lines;
+  std::vector<std::size_t> line_of(points.size());
   for (int round = 0; round < kRounds; ++round) {
+#pragma omp parallel for num_threads(threadsFor(threads)) schedule(dynamic, 64)
+    for (std::ptrdiff_t r = 0; r < static_cast<std::ptrdiff_t>(runs.size()); ++r) {
+      const auto run = static_cast<std::size_t>(r);
+      const std::vector<char> near = finder.linesNear(lines, runs, run);
+      for (std::size_t i = runs.begin(run); i < runs.end(run); ++i) {
+        line_of[i] = finder.lineOf(points[i], lines, near);
+      }
+    }
     std::vector<double> weight(lines.size(), 0.0);
     std::vector<double> shift(lines.size(), 0.0);
-    for (const WallPoint& p : points) {
-      const auto bin = static_cast<std::size_t>((p.z - evidence.z_min) / evidence.bin);
-      const auto block = std::find_if(blocks.begin(), blocks.end(), [&](const CellBlock& b) {
-        return bin < b.last_bin || (bin + 1 >= evidence.num_bins && &b == &blocks.back());
-      });
-      if (block == blocks.end()) continue;
-      double nearest = kGate * noise;
-      const Stretch* best = nullptr;
-      for (const Stretch& stretch : stretches[static_cast<std::size_t>(block - blocks.begin())]) {
-        const PlanLine& line = lines[stretch.line];
-        const double d = std::abs(line.across(p.position));
-        if (d >= nearest || stretch.sense * line.normal.dot(p.normal) < kMinAgreement) continue;
-        const double s = line.tangent().dot(p.position);
-        if (s < stretch.s_min || s > stretch.s_max) continue;
-        nearest = d;
-        best = &stretch;
-      }
-      if (best == nullptr) continue;
-      const double d = lines[best->line].across(p.position);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::size_t l = line_of[i];
+      if (l == lines.size()) continue;
+      const double d = lines[l].across(points[i].position);
       const double u = d / (kTukey * noise);
       const double w = (1.0 - u * u) * (1.0 - u * u);
-      weight[best->line] += w;
-      shift[best->line] += w * d;
+      weight[l] += w;
+      shift[l] += w * d;
     }
     for (std::size_t l = 0; l < lines.size(); ++l) {
       if (weight[l] >= kMinPoints) lines[l].offset += shift[l] / weight[l];
@@ -78,7 +126,7 @@ std::vector<PlanLine> refitUsedLines(const LineArrangement& plan, const WallEvid
   }
   std::vector<PlanLine> result;
   for (std::size_t l = 0; l < lines.size(); ++l) {
-    if (used[l] != 0) result.push_back(lines[l]);
+    if (finder.isUsed(l)) result.push_back(lines[l]);
   }
   return result;
 }

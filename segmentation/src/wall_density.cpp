@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace storey::detail {
 namespace {
@@ -15,17 +16,26 @@ constexpr double kLeastRadius = 4.0;     // noise deviations
 constexpr double kRadiusStep = 1.4;      // the area doubles
 constexpr double kMostRadius = 1.0 / 8;  // of the height of all
 
-// Points, by height, about a height.
-using ByHeight = std::vector<const WallPoint*>;
+// The points by height.
+std::vector<WallPoint> sortedByHeight(const std::vector<WallPoint>& points) {
+  std::vector<std::pair<double, std::size_t>> order;
+  order.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) order.emplace_back(points[i].z, i);
+  std::sort(order.begin(), order.end());
+  std::vector<WallPoint> sorted;
+  sorted.reserve(points.size());
+  for (const auto& [z, i] : order) sorted.push_back(points[i]);
+  return sorted;
+}
 
-double pointsAround(const ByHeight& points, const WallPoint& center, double radius) {
-  const auto below = [](const WallPoint* p, double z) { return p->z < z; };
-  auto p = std::lower_bound(points.begin(), points.end(), center.z - radius, below);
+double pointsAround(const std::vector<WallPoint>& sorted, const WallPoint& center, double radius) {
+  const auto below = [](const WallPoint& p, double z) { return p.z < z; };
+  auto p = std::lower_bound(sorted.begin(), sorted.end(), center.z - radius, below);
   double count = -1.0;  // itself
-  for (; p != points.end() && (*p)->z <= center.z + radius; ++p) {
-    const double dz = (*p)->z - center.z;
-    const double distance = ((*p)->position - center.position).squaredNorm() + dz * dz;
-    if (distance < radius * radius && (*p)->normal.dot(center.normal) > kMinAgreement) count += 1.0;
+  for (; p != sorted.end() && p->z <= center.z + radius; ++p) {
+    const double dz = p->z - center.z;
+    const double distance = (p->position - center.position).squaredNorm() + dz * dz;
+    if (distance < radius * radius && p->normal.dot(center.normal) > kMinAgreement) count += 1.0;
   }
   return count;
 }
@@ -35,23 +45,20 @@ double pointsAround(const ByHeight& points, const WallPoint& center, double radi
 HeightDensity::HeightDensity(const std::vector<WallPoint>& points, const WallScale& scale)
     : densities_(kZones, scale.density) {
   if (points.empty()) return;
-  ByHeight sorted;
-  for (const WallPoint& p : points) sorted.push_back(&p);
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const WallPoint* a, const WallPoint* b) { return a->z < b->z; });
-  low_ = sorted.front()->z;
-  const double height = sorted.back()->z - low_;
+  const std::vector<WallPoint> sorted = sortedByHeight(points);
+  low_ = sorted.front().z;
+  const double height = sorted.back().z - low_;
   step_ = std::max(height / kZones, std::numeric_limits<double>::min());
-  std::vector<ByHeight> zones(kZones);
-  for (const WallPoint* p : sorted) zones[zoneOf(p->z)].push_back(p);
+  std::size_t end = 0;
   for (std::size_t k = 0; k < kZones; ++k) {
-    const ByHeight& zone = zones[k];
-    const std::size_t step = zone.size() / kSamples + 1;
+    const std::size_t begin = end;
+    while (end < sorted.size() && zoneOf(sorted[end].z) == k) ++end;
+    const std::size_t step = (end - begin) / kSamples + 1;
     double radius = std::max(kLeastRadius * scale.noise, std::sqrt(1.0 / scale.density));
-    for (; !zone.empty(); radius *= kRadiusStep) {
+    for (; begin < end; radius *= kRadiusStep) {
       std::vector<double> counts;
-      for (std::size_t i = step / 2; i < zone.size(); i += step) {
-        counts.push_back(pointsAround(sorted, *zone[i], radius));
+      for (std::size_t i = begin + step / 2; i < end; i += step) {
+        counts.push_back(pointsAround(sorted, sorted[i], radius));
       }
       if (counts.empty()) break;
       const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);

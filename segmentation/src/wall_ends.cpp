@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/point_blocks.h>
 #include <storey/segmentation/detail/wall_density.h>
 #include <storey/segmentation/detail/wall_ends.h>
 
@@ -62,7 +63,11 @@ class EndFinder {
     band_ = kBand * scale.noise;
     num_bands_ = static_cast<std::size_t>((high - low_) / band_) + 1;
     places_.resize(walls.size() * num_bands_);
-    for (const WallPoint& p : points) addPoint(p);
+    const PointBlocks blocks(points);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const std::vector<std::size_t> near = wallsNear(blocks, b);
+      for (std::size_t i = blocks.begin(b); i < blocks.end(b); ++i) addPoint(points[i], near);
+    }
   }
 
   std::vector<WallEnd> find() {
@@ -76,10 +81,20 @@ class EndFinder {
   }
 
  private:
-  void addPoint(const WallPoint& p) {
+  std::vector<std::size_t> wallsNear(const PointBlocks& blocks, std::size_t block) const {
+    std::vector<std::size_t> near;
+    for (std::size_t w = 0; w < walls_.size(); ++w) {
+      if (blocks.mayBeNear(block, walls_[w].normal, walls_[w].offset, kGate * scale_.noise)) {
+        near.push_back(w);
+      }
+    }
+    return near;
+  }
+
+  void addPoint(const WallPoint& p, const std::vector<std::size_t>& near) {
     double nearest = kGate * scale_.noise;
     std::size_t wall = walls_.size();
-    for (std::size_t w = 0; w < walls_.size(); ++w) {
+    for (const std::size_t w : near) {
       const double d = std::abs(walls_[w].across(p.position));
       if (d >= nearest || walls_[w].normal.dot(p.normal) < kMinAgreement) continue;
       nearest = d;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/threads.h>
+#include <storey/segmentation/detail/point_blocks.h>
 #include <storey/segmentation/detail/wall_evidence.h>
 
 #include <algorithm>
@@ -12,15 +14,11 @@ namespace {
 constexpr double kGate = 2.5;             // noise deviations
 constexpr double kBin = 3.0;              // noise deviations
 constexpr double kMaxBins = 300.0;        // the partition is quadratic in them
-constexpr double kMinPoints = 20.0;       // of an edge that takes part in the levels
 constexpr double kTilePoints = 6.0;       // a wall misses a tile once in 400
 constexpr double kSeenPoints = 5.0;       // fewer may be outliers
 constexpr double kFullDensity = 0.5;      // of the walls' density: a tile is seen wholly
 constexpr double kLeastDensity = 0.05;    // of the densest height's
 constexpr std::size_t kDensityReach = 3;  // bins up and down
-
-// n ln(n / length), the Poisson log-likelihood of n points at their own mean density.
-double logLikelihood(double n, double length) { return n > 0.0 ? n * std::log(n / length) : 0.0; }
 
 // Tiles of all edges: edge e has those from first[e] to first[e + 1], equally wide.
 struct EdgeTiles {
@@ -121,20 +119,75 @@ void measureSeen(const EdgeTiles& tiles, WallEvidence& evidence) {
   }
 }
 
-// The nearest line that the point confirms; the number of lines if there is none.
-std::size_t lineOf(const WallPoint& p, const std::vector<PlanLine>& lines, double gate) {
-  std::size_t line = lines.size();
-  double nearest = gate;
-  for (std::size_t l = 0; l < lines.size(); ++l) {
-    const double d = std::abs(lines[l].across(p.position));
-    if (d >= gate || std::abs(lines[l].normal.dot(p.normal)) <= kMinAgreement) continue;
-    const bool found = !lines[l].hypothetical;
-    const bool found_before = line < lines.size() && !lines[line].hypothetical;
-    if (found == found_before ? d >= nearest : found_before) continue;
-    nearest = d;
-    line = l;
+// Finds the edge that a point is at.
+class EdgeFinder {
+ public:
+  EdgeFinder(const LineArrangement& plan, double gate)
+      : plan_(plan), gate_(gate), first_edge_(plan.lines.size() + 1, 0) {
+    for (const PlanEdge& edge : plan.edges) ++first_edge_[static_cast<std::size_t>(edge.line) + 1];
+    for (std::size_t l = 0; l < plan.lines.size(); ++l) first_edge_[l + 1] += first_edge_[l];
   }
-  return line;
+
+  // The lines that points of a block may be near.
+  std::vector<std::size_t> linesNear(const PointBlocks& blocks, std::size_t block) const {
+    std::vector<std::size_t> near;
+    for (std::size_t l = 0; l < plan_.lines.size(); ++l) {
+      const PlanLine& line = plan_.lines[l];
+      if (blocks.mayBeNear(block, line.normal, line.offset, gate_)) near.push_back(l);
+    }
+    return near;
+  }
+
+  // The number of edges if there is none, or none of the lines is confirmed.
+  std::size_t edgeOf(const WallPoint& p, const std::vector<std::size_t>& lines) const {
+    const std::size_t line = lineOf(p, lines);
+    if (line == plan_.lines.size()) return plan_.edges.size();
+    const double s = plan_.lines[line].tangent().dot(p.position);
+    const auto begin = plan_.edges.begin() + static_cast<std::ptrdiff_t>(first_edge_[line]);
+    const auto end = plan_.edges.begin() + static_cast<std::ptrdiff_t>(first_edge_[line + 1]);
+    const auto edge = std::lower_bound(
+        begin, end, s, [](const PlanEdge& e, double value) { return e.s_max < value; });
+    if (edge == end || s < edge->s_min) return plan_.edges.size();
+    return static_cast<std::size_t>(edge - plan_.edges.begin());
+  }
+
+ private:
+  // The nearest line that the point confirms; the number of lines if there is none.
+  std::size_t lineOf(const WallPoint& p, const std::vector<std::size_t>& lines) const {
+    std::size_t found = plan_.lines.size();
+    double nearest = gate_;
+    for (const std::size_t l : lines) {
+      const PlanLine& line = plan_.lines[l];
+      const double d = std::abs(line.across(p.position));
+      if (d >= gate_ || std::abs(line.normal.dot(p.normal)) <= kMinAgreement) continue;
+      const bool seen_before = found < plan_.lines.size() && !plan_.lines[found].hypothetical;
+      if (line.hypothetical == !seen_before ? d >= nearest : seen_before) continue;
+      nearest = d;
+      found = l;
+    }
+    return found;
+  }
+
+  const LineArrangement& plan_;
+  double gate_;
+  std::vector<std::size_t> first_edge_;  // edges are sorted by line
+};
+
+// The edge of each point; the number of edges if it is at none.
+std::vector<std::size_t> edgesOf(const LineArrangement& plan, const std::vector<WallPoint>& points,
+                                 double gate, unsigned int threads) {
+  const EdgeFinder finder(plan, gate);
+  const PointBlocks blocks(points);
+  std::vector<std::size_t> edges(points.size());
+#pragma omp parallel for num_threads(threadsFor(threads)) schedule(dynamic, 64)
+  for (std::ptrdiff_t b = 0; b < static_cast<std::ptrdiff_t>(blocks.size()); ++b) {
+    const auto block = static_cast<std::size_t>(b);
+    const std::vector<std::size_t> lines = finder.linesNear(blocks, block);
+    for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) {
+      edges[i] = finder.edgeOf(points[i], lines);
+    }
+  }
+  return edges;
 }
 
 void sumSeen(double density, WallEvidence& evidence) {
@@ -147,7 +200,7 @@ void sumSeen(double density, WallEvidence& evidence) {
 }  // namespace
 
 WallEvidence gatherEvidence(const LineArrangement& plan, const std::vector<WallPoint>& points,
-                            const WallScale& scale, bool saturated) {
+                            const WallScale& scale, bool saturated, unsigned int threads) {
   WallEvidence evidence;
   if (points.empty() || plan.edges.empty()) return evidence;
   double low = std::numeric_limits<double>::infinity();
@@ -164,27 +217,18 @@ WallEvidence gatherEvidence(const LineArrangement& plan, const std::vector<WallP
   EdgeTiles tiles =
       makeTiles(plan, std::max(evidence.bin, kTilePoints / (scale.density * evidence.bin)),
                 evidence.num_bins);
-
-  std::vector<std::size_t> first_edge(plan.lines.size() + 1, 0);  // edges are sorted by line
-  for (const PlanEdge& edge : plan.edges) ++first_edge[static_cast<std::size_t>(edge.line) + 1];
-  for (std::size_t l = 0; l < plan.lines.size(); ++l) first_edge[l + 1] += first_edge[l];
-
-  for (const WallPoint& p : points) {
-    const std::size_t line = lineOf(p, plan.lines, kGate * scale.noise);
-    if (line == plan.lines.size()) continue;
-    const double s = plan.lines[line].tangent().dot(p.position);
-    const auto begin = plan.edges.begin() + static_cast<std::ptrdiff_t>(first_edge[line]);
-    const auto end = plan.edges.begin() + static_cast<std::ptrdiff_t>(first_edge[line + 1]);
-    const auto edge = std::lower_bound(
-        begin, end, s, [](const PlanEdge& e, double value) { return e.s_max < value; });
-    if (edge == end || s < edge->s_min) continue;
+  const std::vector<std::size_t> edges = edgesOf(plan, points, kGate * scale.noise, threads);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t e = edges[i];
+    if (e == plan.edges.size()) continue;
+    const WallPoint& p = points[i];
+    const PlanLine& line = plan.lines[static_cast<std::size_t>(plan.edges[e].line)];
     const auto bin =
         std::min(evidence.num_bins - 1, static_cast<std::size_t>((p.z - low) / evidence.bin));
-    const auto e = static_cast<std::size_t>(edge - plan.edges.begin());
-    const bool agrees = plan.lines[line].normal.dot(p.normal) > 0.0;
+    const bool agrees = line.normal.dot(p.normal) > 0.0;
     (agrees ? evidence.ahead : evidence.behind)[e * evidence.num_bins + bin] += 1.0f;
-    tiles.difference[tiles.tileOf(e, s - edge->s_min) * evidence.num_bins + bin] +=
-        agrees ? 1.0f : -1.0f;
+    const double s = line.tangent().dot(p.position) - plan.edges[e].s_min;
+    tiles.difference[tiles.tileOf(e, s) * evidence.num_bins + bin] += agrees ? 1.0f : -1.0f;
   }
   if (saturated) {
     measureSeen(tiles, evidence);
@@ -192,43 +236,6 @@ WallEvidence gatherEvidence(const LineArrangement& plan, const std::vector<WallP
     sumSeen(scale.density, evidence);
   }
   return evidence;
-}
-
-std::vector<std::size_t> findLevels(const WallEvidence& evidence) {
-  const std::size_t bins = evidence.num_bins;
-  if (bins == 0) return {};
-  // Running sums over the bins, of the edges that have enough points.
-  std::vector<std::vector<double>> sums;
-  for (std::size_t slot = 0; slot < evidence.ahead.size(); slot += bins) {
-    std::vector<double> sum(bins + 1, 0.0);
-    for (std::size_t b = 0; b < bins; ++b) {
-      sum[b + 1] = sum[b] + evidence.ahead[slot + b] + evidence.behind[slot + b];
-    }
-    if (sum.back() >= kMinPoints) sums.push_back(std::move(sum));
-  }
-  const auto edges = static_cast<double>(sums.size());
-  const double penalty =
-      0.5 * edges + 3.0 * std::sqrt(0.5 * edges) + 2.0 * std::log(static_cast<double>(bins) + 1.0);
-  std::vector<double> best(bins + 1, -std::numeric_limits<double>::infinity());
-  std::vector<std::size_t> from(bins + 1, 0);
-  best[0] = 0.0;
-  for (std::size_t to = 1; to <= bins; ++to) {
-    for (std::size_t start = 0; start < to; ++start) {
-      double value = best[start] - penalty;
-      const auto length = static_cast<double>(to - start);
-      for (const std::vector<double>& sum : sums)
-        value += logLikelihood(sum[to] - sum[start], length);
-      if (value > best[to]) {
-        best[to] = value;
-        from[to] = start;
-      }
-    }
-  }
-  std::vector<std::size_t> levels;
-  for (std::size_t b = bins; b > 0; b = from[b]) levels.push_back(b);
-  levels.push_back(0);
-  std::reverse(levels.begin(), levels.end());
-  return levels;
 }
 
 }  // namespace storey::detail

@@ -119,10 +119,6 @@ WallLine VoteTable::lineAt(const Peak& peak) const {
   return line;
 }
 
-int VoteTable::binOf(double offset) const {
-  return std::clamp(static_cast<int>((offset - low_) / bin_), 0, bins_ - 1);
-}
-
 VoteTable::Peak VoteTable::strongestOf(std::size_t angle) const {
   Peak best;
   const int* row = votes_.data() + angle * static_cast<std::size_t>(bins_);

@@ -15,6 +15,7 @@ namespace storey::detail {
 /// `plan.lines`; lines that nothing tells of are as they were
 std::vector<PlanLine> refitUsedLines(const LineArrangement& plan, const WallEvidence& evidence,
                                      const std::vector<CellBlock>& blocks,
-                                     const std::vector<WallPoint>& points, double noise);
+                                     const std::vector<WallPoint>& points, double noise,
+                                     unsigned int threads = 0);
 
 }  // namespace storey::detail

@@ -35,8 +35,10 @@ struct WallEvidence {
 /// half the density of the walls at its height, and in proportion below that. So a dense patch does
 /// not stand for a whole wall, and walls that are sampled more thinly than others count all the
 /// same. \param saturated false: `seen` is the plain sum of the points over the density of all
+/// \param threads 0: all cores; the result is the same for any number
 WallEvidence gatherEvidence(const LineArrangement& plan, const std::vector<WallPoint>& points,
-                            const WallScale& scale, bool saturated = true);
+                            const WallScale& scale, bool saturated = true,
+                            unsigned int threads = 0);
 
 /// Boundaries (bins) of the layers: the optimal partition of the heights into ranges in which each
 /// edge has a constant density, by dynamic programming. Poisson likelihood with change points that

@@ -35,7 +35,10 @@ class VoteTable {
   WallLine lineAt(const Peak& peak) const;
 
  private:
-  int binOf(double offset) const;
+  int binOf(double offset) const {
+    const auto bin = static_cast<int>((offset - low_) / bin_);
+    return bin < 0 ? 0 : bin < bins_ ? bin : bins_ - 1;
+  }
   Peak strongestOf(std::size_t angle) const;
   bool struckOut(std::size_t angle, int bin) const;
 

@@ -69,4 +69,16 @@ class EdgeIndex {
   std::vector<int> candidates_;
 };
 
+inline EdgeIndex::Candidates EdgeIndex::candidates(const Eigen::Vector2d& point) const {
+  const double x = (point.x() - low_.x()) / cell_;
+  const double y = (point.y() - low_.y()) / cell_;
+  if (!(x >= 0.0 && y >= 0.0 && x < static_cast<double>(columns_) &&
+        y < static_cast<double>(rows_))) {
+    return {};
+  }
+  const auto cell = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(y) * columns_ +
+                                             static_cast<std::ptrdiff_t>(x));
+  return {candidates_.data() + first_[cell], candidates_.data() + first_[cell + 1]};
+}
+
 }  // namespace storey::detail
