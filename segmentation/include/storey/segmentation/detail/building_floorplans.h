@@ -18,7 +18,6 @@ struct BuildingFloorplanOptions {
   double min_area = 0.0;       ///< of a component or courtyard
   SimplicityLimits limits;
   MethodSteps steps = {};
-  double keep_components = 0.1;  ///< components with less of the best supported one's support go
 };
 
 struct BuildingFloorplans {
