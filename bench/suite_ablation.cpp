@@ -41,7 +41,6 @@ std::vector<Variant> variants() {
           {"pruning", &S::pruning},
           {"transitions", &S::transitions},
           {"second pass", &S::second_pass},
-          {"weak parts dropped", &S::weak_parts},
           {"panes", &S::panes},
           {"shared directions", &S::shared_directions},
           {"upright", &S::upright},

@@ -25,7 +25,8 @@ level: of the building, but also of its neighbours, of trees and cars. The devia
 relief included. Explained: upright points within 3 deviations of the model. Of the building: the same of the points classed as wall
 (see "Classes of points" in method.md), that is without surfaces that lean by more than 8 degrees and without small groups that a gap
 separates from the rest; no model takes part in that. Supported: area of the model's walls with upright points within 3 deviations;
-walls that trees hide or that nobody was behind have none.
+walls that trees hide or that nobody was behind have none. Not guessed: the same of the walls that the model does not mark
+as hypothetical.
 
 )";
 
@@ -35,9 +36,10 @@ namespace fs = std::filesystem;
 struct Agreement {
   std::size_t points = 0;
   double noise = 0.0;
-  double explained = 0.0;    ///< share of the upright points within 3 deviations
-  double of_building = 0.0;  ///< the same of those that are of upright surfaces and not apart
-  double supported = 0.0;    ///< share of the model's wall area with such points
+  double explained = 0.0;        ///< share of the upright points within 3 deviations
+  double of_building = 0.0;      ///< the same of those that are of upright surfaces and not apart
+  double supported = 0.0;        ///< share of the model's wall area with such points
+  double supported_shown = 0.0;  ///< the same of the walls that are not marked as guessed
   std::size_t polygons = 0;
   std::size_t blocks = 0;
   bool valid = false;
@@ -74,6 +76,7 @@ Agreement agreementOf(const reconstruct::Options& options) {
   a.explained = e.explainedShare();
   a.of_building = reconstruct::agreementWith(result).explained_of_building;
   a.supported = e.supportedShare();
+  a.supported_shown = e.supportedShownShare();
   a.polygons = result.model.model.faces.size();
   a.blocks = result.model.model.storeys.size();
   a.valid = result.model.check.ok();
@@ -90,7 +93,7 @@ void addRow(const std::string& cloud, const Report& report, Table& table) {
   if (!report.failure.empty()) {
     const bool has_path = report.failure.rfind(cloud + ": ", 0) == 0;
     const std::string reason = report.failure.substr(has_path ? cloud.size() + 2 : 0);
-    table.add({name, "-", "-", "-", "-", "-", "-", "-", "-", "-", reason});
+    table.add({name, "-", "-", "-", "-", "-", "-", "-", "-", "-", "-", reason});
     return;
   }
   Agreement a;
@@ -99,8 +102,8 @@ void addRow(const std::string& cloud, const Report& report, Table& table) {
   std::snprintf(noise, sizeof noise, "%.3g", a.noise);
   table.add({name, std::to_string(a.points), noise, fixed(100.0 * a.explained, 1) + " %",
              fixed(100.0 * a.of_building, 1) + " %", fixed(100.0 * a.supported, 1) + " %",
-             std::to_string(a.polygons), std::to_string(a.blocks), a.valid ? "yes" : "no",
-             fixed(a.seconds, 1), ""});
+             fixed(100.0 * a.supported_shown, 1) + " %", std::to_string(a.polygons),
+             std::to_string(a.blocks), a.valid ? "yes" : "no", fixed(a.seconds, 1), ""});
 }
 
 }  // namespace
@@ -122,8 +125,8 @@ void measureReal(const Request& request) {
         std::fprintf(stderr, "%s %s\n", clouds[i].c_str(), report.failure.c_str());
       });
   std::printf(kRealText);
-  Table table({"cloud", "points", "noise", "explained", "of the building", "supported", "polygons",
-               "blocks", "valid", "CPU s", "what is wrong"});
+  Table table({"cloud", "points", "noise", "explained", "of the building", "supported",
+               "not guessed", "polygons", "blocks", "valid", "CPU s", "what is wrong"});
   for (std::size_t i = 0; i < clouds.size(); ++i) {
     addRow(clouds[i], reports[i], table);
   }

@@ -129,6 +129,10 @@ double CloudEvaluation::supportedShare() const {
   return wall_area > 0.0 ? supported_area / wall_area : 0.0;
 }
 
+double CloudEvaluation::supportedShownShare() const {
+  return shown_area > 0.0 ? supported_shown_area / shown_area : 0.0;
+}
+
 CloudEvaluation evaluateAgainstCloud(const io::PolygonSoup& model,
                                      const std::vector<OrientedPosition>& points,
                                      const Vector3d& up, double sigma, double density) {
@@ -159,6 +163,9 @@ CloudEvaluation evaluateAgainstCloud(const io::PolygonSoup& model,
   for (std::size_t i = 0; i < areas.size(); ++i) {
     evaluation.wall_area += areas[i];
     evaluation.supported_area += supported[i];
+    if (model.polygons[i].hypothetical) continue;
+    evaluation.shown_area += areas[i];
+    evaluation.supported_shown_area += supported[i];
   }
   return evaluation;
 }

@@ -16,11 +16,14 @@ struct CloudEvaluation {
   double sigma = 0.0;      ///< noise that the distances are compared with
   double cell_size = 0.0;  ///< of the raster on the walls
   std::size_t wall_points = 0;
-  std::size_t explained_points = 0;  ///< of these, within 3 sigma of the model
-  double wall_area = 0.0;            ///< of the model
-  double supported_area = 0.0;       ///< of this, cells with a wall point within 3 sigma
-  double explainedShare() const;     ///< 0 if there are no wall points
-  double supportedShare() const;     ///< 0 if there are no walls
+  std::size_t explained_points = 0;    ///< of these, within 3 sigma of the model
+  double wall_area = 0.0;              ///< of the model
+  double supported_area = 0.0;         ///< of this, cells with a wall point within 3 sigma
+  double shown_area = 0.0;             ///< of the model's walls that are not marked as guessed
+  double supported_shown_area = 0.0;   ///< of this, as `supported_area`
+  double explainedShare() const;       ///< 0 if there are no wall points
+  double supportedShare() const;       ///< 0 if there are no walls
+  double supportedShownShare() const;  ///< 0 if all walls are guessed
 };
 
 /// A point of the cloud in the coordinates of the model.

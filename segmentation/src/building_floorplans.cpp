@@ -6,7 +6,6 @@
 #include <storey/segmentation/detail/transition_blocks.h>
 #include <storey/segmentation/detail/wall_hypotheses.h>
 #include <storey/segmentation/detail/wall_lines.h>
-#include <storey/segmentation/detail/weak_parts.h>
 
 #include <algorithm>
 #include <cmath>
@@ -193,7 +192,6 @@ BuildingFloorplans extractBuildingFloorplans(const WallInput& input,
   labeling.run();
   labeling.simplify(options.limits);
   labeling.takeOutlines(options.min_area);
-  if (options.steps.weak_parts) dropWeakParts(result.plan, options.keep_components, result.layers);
   return result;
 }
 

@@ -378,6 +378,27 @@ TEST(CloudEvaluation, MissingWallsAreNotSupported) {
   EXPECT_GT(e.explainedShare(), 0.99);
 }
 
+TEST(CloudEvaluation, WallsMarkedAsGuessedAreLeftOutOfTheShareOfTheOthers) {
+  const double density = 100000.0 / (2.0 * (20.0 * 14.0 + 20.0 * 24.0 + 14.0 * 24.0));
+  const auto points = boxPoints(0.25);
+  PolygonSoup model = box(kLow, kHigh);
+  double best = 0.0;  // where it is the wall without points that is marked
+  for (PolygonSoup::Polygon& polygon : model.polygons) {
+    polygon.hypothetical = true;
+    const auto e =
+        storey::synth::evaluateAgainstCloud(model, points, Vector3d::UnitZ(), 0.1, density);
+    best = std::max(best, e.supportedShownShare());
+    polygon.hypothetical = false;
+  }
+  EXPECT_GT(best, 0.98);
+  for (PolygonSoup::Polygon& polygon : model.polygons) polygon.hypothetical = true;
+  const auto e =
+      storey::synth::evaluateAgainstCloud(model, points, Vector3d::UnitZ(), 0.1, density);
+  EXPECT_EQ(e.shown_area, 0.0);
+  EXPECT_EQ(e.supportedShownShare(), 0.0);
+  EXPECT_GT(e.supportedShare(), 0.5);
+}
+
 TEST(CloudEvaluation, AWrongModelExplainsLittle) {
   const Vector3d shift(2.0, 2.0, 0.0);
   const double density = 100000.0 / (2.0 * (20.0 * 14.0 + 20.0 * 24.0 + 14.0 * 24.0));

@@ -64,9 +64,9 @@ class BuildingFloorplanExtraction : public pcl::PCLBase<PointT> {
   void setBlockCost(double square_length) { block_cost_ = square_length; }
   double getBlockCost() const { return block_cost_; }
 
-  /// Limits of the model's size: its faces (as many as the polygons of the solid, parts that are
-  /// dropped for their weakness included) and its different floorplans; 0 (default): none. Where
-  /// they are exceeded, what a face must explain rises until they are kept.
+  /// Limits of the model's size: its faces (as many as the polygons of the solid) and its different
+  /// floorplans; 0 (default): none. Where they are exceeded, what a face must explain rises until
+  /// they are kept.
   void setMaxFaces(std::size_t max_faces) { limits_.max_faces = max_faces; }
   std::size_t getMaxFaces() const { return limits_.max_faces; }
   void setMaxTypes(std::size_t max_types) { limits_.max_types = max_types; }

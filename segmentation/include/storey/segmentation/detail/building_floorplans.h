@@ -18,8 +18,7 @@ struct BuildingFloorplanOptions {
   double min_area = 0.0;       ///< of a component or courtyard
   SimplicityLimits limits;
   MethodSteps steps = {};
-  unsigned int threads = 0;      ///< 0: all cores; the result is the same for any number
-  double keep_components = 0.1;  ///< components with less of the best supported one's support go
+  unsigned int threads = 0;  ///< 0: all cores; the result is the same for any number
 };
 
 struct BuildingFloorplans {

@@ -20,7 +20,6 @@ struct MethodSteps {
   bool pruning = true;          ///< outlines simplified
   bool transitions = true;      ///< blocks that straddle a change divided
   bool second_pass = true;      ///< all again with the lines in use, refitted
-  bool weak_parts = true;       ///< parts with little support dropped
   // The fits.
   bool panes = true;              ///< windows that are set back taken as a mode of their own
   bool shared_directions = true;  ///< walls that agree share one direction
