@@ -4,7 +4,6 @@
 #include <omp.h>
 #include <storey/surface/detail/texture_fill.h>
 
-#include <array>
 #include <cstdio>
 #include <ctime>
 #include <string>
@@ -60,30 +59,12 @@ double seenOf(const Textures& textures) {
   return seen / all;
 }
 
-/// Gives what is unseen the mean of what was seen: what any filling must be better than.
-void fillWithMean(storey::FacadeTexture& t) {
-  std::array<double, 3> sum{};
-  double count = 0.0;
-  for (std::size_t i = 0; i < t.states.size(); ++i) {
-    if (t.states[i] != storey::TexelState::Seen) continue;
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += t.image.channels[3 * i + c];
-    count += 1.0;
-  }
-  for (std::size_t i = 0; count > 0.0 && i < t.states.size(); ++i) {
-    if (t.states[i] != storey::TexelState::Unseen) continue;
-    t.states[i] = storey::TexelState::Filled;
-    for (std::size_t c = 0; c < 3; ++c) {
-      t.image.channels[3 * i + c] = static_cast<std::uint8_t>(sum[c] / count);
-    }
-  }
-}
-
 /// How faithful the middles of walls are when they were not seen: filled, and with the mean.
 std::vector<std::string> measureFill(const synth::PhotoScene& scene, Textures textures) {
   synth::hideMiddles(scene, textures);
   Textures plain = textures;
   for (storey::FacadeTexture& t : textures) storey::detail::fillUnseen(t);
-  for (storey::FacadeTexture& t : plain) fillWithMean(t);
+  for (storey::FacadeTexture& t : plain) synth::fillWithMean(t);
   const auto filled = storey::TexelState::Filled;
   return {fixed(synth::faithfulness(scene, textures, filled), 1),
           fixed(synth::faithfulness(scene, plain, filled), 1)};
