@@ -76,7 +76,7 @@ int run(int argc, char** argv) {
   texture::ModelFacades model = texture::groupFacades(request.model, soup);
   std::vector<storey::FacadePhoto> photos = readPhotos(request);
   const Eigen::Vector3d vertical = storey::synth::upOfModel(soup);
-  texture::turnToCameras(photos, model.facades);
+  const bool enclosed = texture::turnToCameras(photos, model.facades);
   storey::FacadeTexturing texturing;
   texturing.setFacades(model.facades);
   texturing.setPhotos(std::move(photos));
@@ -86,6 +86,7 @@ int run(int argc, char** argv) {
   texturing.setFillUnseen(request.fill);
   std::vector<storey::FacadeTexture> textures;
   if (!texturing.texture(textures)) return io::BadInput;
+  if (enclosed) texture::forgetOpenLids(model, vertical, textures);
   texture::writeTexturedModel(request.output, soup, model, textures, vertical);
   print(textures);
   return io::Ok;

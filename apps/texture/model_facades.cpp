@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
 #include "io/failure.h"
 #include "synth/polygon_mesh.h"
 #include "texture/textured_model.h"
@@ -13,10 +15,12 @@ ModelFacades groupFacades(const std::string& path, const io::PolygonSoup& soup) 
   }
   ModelFacades model;
   model.facades.resize(mesh.num_polygons);
+  model.guessed.assign(mesh.num_polygons, true);
   std::vector<Eigen::Vector3d> normals(mesh.num_polygons, Eigen::Vector3d::Zero());
   for (std::size_t i = 0; i < soup.polygons.size(); ++i) {
     const auto facade = static_cast<std::size_t>(mesh.polygon_of[i]);
     model.facade_of.push_back(facade);
+    if (!soup.polygons[i].hypothetical) model.guessed[facade] = false;
     normals[facade] += synth::areaNormal(soup, soup.polygons[i]);
     std::vector<Eigen::Vector3d> ring;
     for (const int corner : soup.polygons[i].corners) {
@@ -38,11 +42,24 @@ ModelFacades groupFacades(const std::string& path, const io::PolygonSoup& soup) 
   return model;
 }
 
-void turnToCameras(const std::vector<FacadePhoto>& photos, std::vector<Facade>& facades) {
+bool turnToCameras(const std::vector<FacadePhoto>& photos, std::vector<Facade>& facades) {
   std::size_t enclosed = 0;
   for (const FacadePhoto& photo : photos) enclosed += isEnclosed(facades, photo.camera.center());
-  if (2 * enclosed <= photos.size()) return;
+  if (2 * enclosed <= photos.size()) return false;
   for (Facade& facade : facades) facade.normal *= -1.0;
+  return true;
+}
+
+void forgetOpenLids(const ModelFacades& model, const Eigen::Vector3d& vertical,
+                    std::vector<FacadeTexture>& textures) {
+  constexpr double kDown = -0.5;  // of the normal: walls and level faces are far from it
+  for (std::size_t f = 0; f < textures.size(); ++f) {
+    if (!model.guessed[f] || model.facades[f].normal.dot(vertical) > kDown) continue;
+    std::replace(textures[f].states.begin(), textures[f].states.end(), TexelState::Seen,
+                 TexelState::Unseen);
+    std::fill(textures[f].image.channels.begin(), textures[f].image.channels.end(),
+              std::uint8_t{0});
+  }
 }
 
 }  // namespace storey::texture

@@ -17,14 +17,20 @@ struct ModelFacades {
   std::vector<std::size_t> facade_of;         ///< of each of the soup's polygons
   std::vector<std::array<int, 3>> triangles;  ///< over the soup's vertices
   std::vector<std::size_t> facade_of_triangle;
+  std::vector<bool> guessed;  ///< of each facade: points were seen on none of its polygons, or few
 };
 
 /// \throws io::Failure (BadInput) naming `path` if a polygon is none
 ModelFacades groupFacades(const std::string& path, const io::PolygonSoup& soup);
 
 /// Turns the facades to the cameras if most of the cameras are inside the model: then it is an
-/// enclosed space, a yard or a room.
-void turnToCameras(const std::vector<FacadePhoto>& photos, std::vector<Facade>& facades);
+/// enclosed space, a yard or a room. \return whether it is
+bool turnToCameras(const std::vector<FacadePhoto>& photos, std::vector<Facade>& facades);
+
+/// Makes level facades that look down and on which hardly a point was seen unseen: the lid that
+/// closes the model of a yard is sky in the photos. \param vertical unit, upwards
+void forgetOpenLids(const ModelFacades& model, const Eigen::Vector3d& vertical,
+                    std::vector<FacadeTexture>& textures);
 
 /// Writes textured.obj, textured.mtl, textured.glb (`toTexturedGlb`) and, for each facade k,
 ///   textures/facade_kkk.png, the facade seen at right angles (`drawnImages`), and

@@ -54,14 +54,33 @@ TEST(ModelFacades, TurnToCamerasInside) {
   const std::vector<Facade> before = model.facades;
   FacadePhoto outside;
   outside.camera.world_to_camera.translation() = Eigen::Vector3d(1000.0, 0.0, 0.0);
-  turnToCameras({outside}, model.facades);
+  EXPECT_FALSE(turnToCameras({outside}, model.facades));
   EXPECT_EQ(model.facades[0].normal, before[0].normal);
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& v : modelOf("box").vertices) middle += v / 8.0;
   FacadePhoto inside;
   inside.camera.world_to_camera.translation() = -middle;
-  turnToCameras({inside}, model.facades);
+  EXPECT_TRUE(turnToCameras({inside}, model.facades));
   EXPECT_EQ(model.facades[0].normal, -before[0].normal);
+}
+
+// A room of which all but the floor was guessed: only what is above is taken for sky.
+TEST(ModelFacades, OpenLidsAreForgotten) {
+  io::PolygonSoup soup = io::toPolygons(modelOf("box"));
+  for (io::PolygonSoup::Polygon& polygon : soup.polygons) polygon.hypothetical = true;
+  ModelFacades model = groupFacades("model", soup);
+  for (Facade& facade : model.facades) facade.normal *= -1.0;
+  FacadeTexturing texturing;
+  texturing.setFacades(model.facades);
+  std::vector<FacadeTexture> textures;
+  ASSERT_TRUE(texturing.texture(textures));
+  for (FacadeTexture& t : textures) t.states.assign(t.states.size(), TexelState::Seen);
+  forgetOpenLids(model, Eigen::Vector3d::UnitZ(), textures);
+  for (std::size_t f = 0; f < textures.size(); ++f) {
+    EXPECT_EQ(textures[f].seenShare(), model.facades[f].normal.z() < -0.5 ? 0.0 : 1.0);
+  }
+  soup.polygons[0].hypothetical = false;
+  EXPECT_FALSE(groupFacades("model", soup).guessed[0]);
 }
 
 /// A wall of 8 x 6 whose hole [2, 6] x [1, 5] has a pane of the same size behind it.

@@ -8,12 +8,35 @@
   // As it is in the photos: neither lit nor converted.
   function showAsPhotographed(model, images) {
     model.traverse(part => {
-      const map = part.isMesh ? part.material.map : null;
-      if (!map) return;
-      map.encoding = THREE.LinearEncoding;
+      if (!part.isMesh) return;
+      const map = part.material.map;
+      if (map) {
+        map.encoding = THREE.LinearEncoding;
+        images[Number(part.material.name.split('_')[1])] = map.image;
+      } else {
+        part.material.color.convertLinearToSRGB();
+      }
       part.material.needsUpdate = true;
-      images[Number(part.material.name.split('_')[1])] = map.image;
     });
+  }
+
+  // Where most of what the photos show looks to; undefined if that is to all sides.
+  function photographedSide(model, up) {
+    const sum = new THREE.Vector3();
+    let area = 0;
+    model.traverse(part => {
+      if (!part.isMesh || !part.material.map) return;
+      const corners = part.geometry.attributes.position;
+      const [a, b, c] = [0, 1, 2].map(() => new THREE.Vector3());
+      for (let i = 0; i < corners.count; i += 3) {
+        [a, b, c].forEach((corner, k) => corner.fromBufferAttribute(corners, i + k));
+        const normal = b.sub(a).cross(c.sub(a));
+        area += normal.length();
+        sum.add(normal);
+      }
+    });
+    sum.addScaledVector(up, -sum.dot(up));
+    return sum.length() > 0.2 * area ? sum.normalize() : undefined;
   }
 
   function show(gltf) {
@@ -25,7 +48,8 @@
     const extent = new THREE.Box3().setFromObject(model).getSize(new THREE.Vector3()).length();
     const radius = 0.4 * extent;  // buildings do not fill the sphere about them
     try {
-      turntable(place, gltf.scene, new THREE.Vector3(...model.userData.up), radius);
+      const up = new THREE.Vector3(...model.userData.up);
+      turntable(place, gltf.scene, up, radius, photographedSide(model, up));
     } catch (error) {
       cannotDraw(place, error);
     }

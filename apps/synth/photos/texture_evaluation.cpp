@@ -204,4 +204,21 @@ void hideMiddles(const PhotoScene& scene, std::vector<FacadeTexture>& textures) 
   }
 }
 
+void fillWithMean(FacadeTexture& t) {
+  std::array<double, 3> sum{};
+  double count = 0.0;
+  for (std::size_t i = 0; i < t.states.size(); ++i) {
+    if (t.states[i] != TexelState::Seen) continue;
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += t.image.channels[3 * i + c];
+    count += 1.0;
+  }
+  for (std::size_t i = 0; count > 0.0 && i < t.states.size(); ++i) {
+    if (t.states[i] != TexelState::Unseen) continue;
+    t.states[i] = TexelState::Filled;
+    for (std::size_t c = 0; c < 3; ++c) {
+      t.image.channels[3 * i + c] = static_cast<std::uint8_t>(sum[c] / count);
+    }
+  }
+}
+
 }  // namespace storey::synth

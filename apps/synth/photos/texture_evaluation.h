@@ -44,4 +44,7 @@ void cutPaintedWindows(const PhotoScene& scene, double depth, PolyhedralModel& m
 /// tenths of its width and height.
 void hideMiddles(const PhotoScene& scene, std::vector<FacadeTexture>& textures);
 
+/// Gives what is unseen the mean of what was seen: what any filling must be better than.
+void fillWithMean(FacadeTexture& texture);
+
 }  // namespace storey::synth
