@@ -127,8 +127,9 @@ std::vector<Color> paletteOf(const std::vector<Color>& image) {
 PaletteImage paletteImage(const TextureGrid& grid, const std::vector<RectifiedView>& views,
                           double max_pixels) {
   PaletteImage result;
+  const double step = std::sqrt(grid.width * grid.height / max_pixels);
   result.step =
-      std::max(1, static_cast<int>(std::lround(std::sqrt(grid.width * grid.height / max_pixels))));
+      std::clamp(static_cast<int>(std::lround(step)), 1, std::min(grid.width, grid.height));
   std::vector<CoarseView> coarse(views.size());
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(views.size()); ++k) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace storey::detail {
 namespace {
@@ -78,6 +80,7 @@ class GridSearch {
   }
   void count(const Box& box, Histogram& histogram) const;
   void seedsOf(const IntegralImage& levels, std::vector<Box>& seeds) const;
+  std::optional<Box> mostDifferent(const IntegralImage& levels, const Box& size) const;
   std::vector<Box> windowsOf(const BandGrid& bands, const WindowScores& scores) const;
   void measure(Found& found) const;
 
@@ -102,28 +105,33 @@ void GridSearch::seedsOf(const IntegralImage& levels, std::vector<Box>& seeds) c
     for (const double shape : kShapes) {
       const Box size{0, 0, static_cast<int>(std::lround(shape * h)),
                      static_cast<int>(std::lround(h))};
-      const int frame = size.frame();
       if (size.width < leastSide() || 2 * size.width > width()) continue;
-      Box best = size;
-      float highest = 0.0f;
-      const float inner = static_cast<float>(size.width * size.height);
-      const float outer =
-          static_cast<float>((size.width + 2 * frame) * (size.height + 2 * frame)) - inner;
-      for (int top = frame; top + size.height + frame <= height(); ++top) {
-        for (int left = frame; left + size.width + frame <= width(); ++left) {
-          const Box box{left, top, size.width, size.height};
-          const Box around{left - frame, top - frame, size.width + 2 * frame,
-                           size.height + 2 * frame};
-          const float in = levels.sum(box);
-          const float contrast = in / inner - (levels.sum(around) - in) / outer;
-          if (contrast <= highest) continue;
-          highest = contrast;
-          best = box;
-        }
-      }
-      if (highest > 0.0f) seeds.push_back(best);
+      const std::optional<Box> best = mostDifferent(levels, size);
+      if (best) seeds.push_back(*best);
     }
   }
+}
+
+/// Where the mean in a box of this size is farthest above that in the frame about it.
+std::optional<Box> GridSearch::mostDifferent(const IntegralImage& levels, const Box& size) const {
+  const int frame = size.frame();
+  const Box whole{0, 0, size.width + 2 * frame, size.height + 2 * frame};
+  const auto inner = static_cast<float>(size.width * size.height);
+  const float outer = static_cast<float>(whole.width * whole.height) - inner;
+  std::optional<Box> best;
+  float highest = 0.0f;
+  for (int top = 0; top + whole.height <= height(); ++top) {
+    for (int left = 0; left + whole.width <= width(); ++left) {
+      const Box box{left + frame, top + frame, size.width, size.height};
+      const float in = levels.sum(box);
+      const float all = levels.sum({left, top, whole.width, whole.height});
+      const float contrast = in / inner - (all - in) / outer;
+      if (contrast <= highest) continue;
+      highest = contrast;
+      best = box;
+    }
+  }
+  return best;
 }
 
 std::vector<Box> GridSearch::seeds() const {
@@ -262,6 +270,20 @@ double overlap(const Box& a, const Box& b) {
   return both / (a.width * a.height + b.width * b.height - both);
 }
 
+/// Bands of the raster in pixels of its image, at least one in it.
+Box boxOf(const PaletteImage& image, const Band& columns, const Band& rows) {
+  const auto range = [&image](const Band& band, Eigen::Index size) {
+    const auto last = static_cast<int>(size) - 1;
+    const int begin = std::clamp(static_cast<int>(std::lround(band.begin / image.step)), 0, last);
+    const int end =
+        std::clamp(static_cast<int>(std::lround(band.end / image.step)), begin + 1, last + 1);
+    return std::make_pair(begin, end - begin);
+  };
+  const auto [left, width] = range(columns, image.colors.cols());
+  const auto [top, height] = range(rows, image.colors.rows());
+  return {left, top, width, height};
+}
+
 /// On the facade's own raster.
 WindowProposal onRaster(const TextureGrid& grid, const PaletteImage& image,
                         const GridSearch& search, const GridSearch::Found& found) {
@@ -323,11 +345,7 @@ WindowProposal proposeGridWith(const TextureGrid& grid, const std::vector<Rectif
   constexpr double kSame = 0.5;  // of the union of mark and window, which may be drawn loosely
   const PaletteImage image = paletteImage(grid, views, kPixels);
   const GridSearch search(image);
-  const auto pixels = [&image](double texels) {
-    return static_cast<int>(std::lround(texels / image.step));
-  };
-  const Box mark{pixels(columns.begin), pixels(rows.begin), std::max(1, pixels(columns.length())),
-                 std::max(1, pixels(rows.length()))};
+  const Box mark = boxOf(image, columns, rows);
   std::vector<Box> seeds = search.seeds();
   seeds.push_back(mark);
   const std::vector<GridSearch::Found> found = growAll(search, seeds);
