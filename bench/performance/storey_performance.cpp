@@ -81,6 +81,7 @@ void measureSize(std::size_t size, const std::string& folder, bool quick, Result
   results.add(size, "paper: ", measureAlone([&] { return measureStages(options); }));
   const int runs = quick || size > kFast ? 1 : kRuns;
   measurePrograms(size, walls, folder + "/performance", "building", runs, results);
+  measureThinned(size, walls, folder + "/performance", results);
   if (size <= (quick ? results.sizes().front() : kMostOfPaper)) {
     measurePrograms(size, walls, folder + "/performance", "paper", runs, results);
   }

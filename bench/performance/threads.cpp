@@ -58,6 +58,16 @@ void measurePrograms(std::size_t size, const std::string& cloud, const std::stri
   }
 }
 
+void measureThinned(std::size_t size, const std::string& cloud, const std::string& scratch,
+                    Results& results) {
+  const ProgramRun run =
+      runProgram("storey_reconstruct", {cloud, "-o", scratch, "--quiet", "--threads", "2",
+                                        "--max-points", std::to_string(size / 10)});
+  if (run.status != 0) throw io::Failure(io::Internal, cloud, "storey_reconstruct failed", "");
+  results.add(size, "",
+              {{"program, building, --max-points a tenth", run.wall, run.cpu, run.peak_bytes}});
+}
+
 void printSpeedUps(const Results& results) {
   std::printf("%s", kText);
   Table table({"method", "points", "with files: 1 thread", "2 threads", "speed-up",

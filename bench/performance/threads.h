@@ -13,6 +13,11 @@ namespace storey::bench {
 void measurePrograms(std::size_t size, const std::string& cloud, const std::string& scratch,
                      const std::string& method, int runs, Results& results);
 
+/// The same with two threads and `--max-points` a tenth of the cloud: what a cloud takes that is
+/// larger than memory.
+void measureThinned(std::size_t size, const std::string& cloud, const std::string& scratch,
+                    Results& results);
+
 /// The speed-up by the second thread, from what `measurePrograms` noted, to stdout.
 void printSpeedUps(const Results& results);
 
