@@ -104,8 +104,10 @@ int run(int argc, char** argv) {
   if (quick) sizes.resize(2);
   Results results(sizes);
   for (const std::size_t size : sizes) measureSize(size, folder, quick, results);
+  if (quick)
+    std::printf("Measured with `--quick`: up to a million points, without what is slow.\n\n");
   results.print();
-  std::printf("%s\n\n", missingPeers().c_str());
+  if (!missingPeers().empty()) std::printf("%s\n\n", missingPeers().c_str());
   results.writeCsv(folder + "/performance.csv");
   results.writeShares(folder + "/performance_shares.csv");
   printSpeedUps(results);
