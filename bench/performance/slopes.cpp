@@ -16,26 +16,27 @@
 namespace storey::bench {
 namespace {
 
-constexpr std::size_t kPoints = 300000;
+constexpr std::size_t kPoints = 500000;
 constexpr rlim_t kPatience = 60;        // seconds of CPU
 constexpr double kLeastSeconds = 0.02;  // of a stage whose slope says something
 constexpr const char* kSlicesText = R"(## Over the number of slices
 
-The paper's chain on the building of the first table with 300,000 points, CPU seconds on one thread. The exponent is that of the
+The paper's chain on the building of the first table with 500,000 points, CPU seconds on one thread. The exponent is that of the
 least squares line of log time over log count; stages that never take 0.02 s are left out. A run that takes longer than
 %.0f s ends there.
 
 )";
 constexpr const char* kWallsText = R"(## Over the number of walls
 
-The building's chain on a block whose sides are cut into teeth, no two walls in one plane; 300,000 points, CPU seconds on one
+The building's chain on a block whose sides are cut into teeth, no two walls in one plane; 500,000 points, CPU seconds on one
 thread.
 
 )";
 
 struct Series {
   std::vector<double> counts;
-  std::vector<std::vector<Measured>> runs;  ///< parallel to `counts`; none where it took too long
+  std::vector<std::vector<Measured>> runs;  ///< parallel to `counts`; none where `missing` says why
+  std::vector<std::string> missing;
 };
 
 double exponentOf(const std::vector<double>& counts, const std::vector<double>& seconds) {
@@ -63,8 +64,7 @@ void print(const std::string& what, const Series& series) {
     std::vector<double> seconds;
     for (std::size_t i = 0; i < series.runs.size(); ++i) {
       const bool ended = !series.runs[i].empty();
-      cells.push_back(ended ? fixed(series.runs[i][stage].cpu, 2)
-                            : "> " + std::to_string(kPatience) + " in all");
+      cells.push_back(ended ? fixed(series.runs[i][stage].cpu, 2) : series.missing[i]);
       if (!ended) continue;
       counts.push_back(series.counts[i]);
       seconds.push_back(series.runs[i][stage].cpu);
@@ -76,25 +76,22 @@ void print(const std::string& what, const Series& series) {
   table.print();
 }
 
-/// None if they take too long.
-std::vector<Measured> stagesOf(const reconstruct::Options& options) {
+void measure(Series& series, double count, const reconstruct::Options& options) {
+  series.counts.push_back(count);
+  series.runs.emplace_back();
+  series.missing.emplace_back();
   try {
-    return measureAlone([&] {
+    series.runs.back() = measureAlone([&] {
       const rlimit limit{kPatience, kPatience};
       setrlimit(RLIMIT_CPU, &limit);
       return measureStages(options);
     });
+    std::fprintf(stderr, "%.0f: %.2f s\n", count, series.runs.back().back().cpu);
   } catch (const io::Failure& failure) {
-    std::fprintf(stderr, "%s\n", failure.what());
-    return {};
+    const bool ended = std::string(failure.what()).find("CRASH") != std::string::npos;
+    series.missing.back() = ended ? "> " + std::to_string(kPatience) + " in all" : "refused";
+    std::fprintf(stderr, "%.0f: %s\n", count, failure.what());
   }
-}
-
-void measure(Series& series, double count, const reconstruct::Options& options) {
-  series.counts.push_back(count);
-  series.runs.push_back(stagesOf(options));
-  const std::vector<Measured>& run = series.runs.back();
-  std::fprintf(stderr, "%.0f: %.2f s\n", count, run.empty() ? -1.0 : run.back().cpu);
 }
 
 void measureSlices(const std::string& cloud, bool quick) {
