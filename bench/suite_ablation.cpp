@@ -31,6 +31,7 @@ std::vector<Variant> variants() {
   return {{"nothing", nullptr},
           {"locked directions", &S::locked_directions},
           {"thin heights", &S::thin_heights},
+          {"thin facades", &S::thin_facades},
           {"main tiles", &S::main_tiles},
           {"setbacks", &S::setbacks},
           {"flatness", &S::flatness},

@@ -23,6 +23,7 @@ constexpr double kMinVotes = 0.3;            // of the points that the least sup
 constexpr double kThin = 0.5;                // of the density of all: where its cells are too small
 constexpr double kThinnest = 1.0 / 16.0;     // thinner heights show clutter alone
 constexpr double kThinMiddle = 0.7;          // of an octave of densities
+constexpr double kThinFacade = 0.25;         // of the density of all, at most
 constexpr int kMaxFailures = 40;             // peaks without support in a row
 constexpr int kMaxLines = 400;               // cells grow with their square
 constexpr double kSameAngle = 0.1 * M_PI / 180.0;  // rad, least gap between directions
@@ -112,6 +113,28 @@ void extractThinParts(const std::vector<WallPoint>& points, const PointBlocks& b
     extractGreedily(points, blocks, thin, options, true, all_around, free_there, lines);
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (before[i] != free_there[i]) free[i] = 0;
+    }
+  }
+}
+
+// Facades with much fewer points than the others at the same heights, for they were seen from afar
+// or at a flat angle, octave by octave of their density. Clutter is as thin: a line needs a known
+// direction, and as many points as the least wall that was seen well.
+void extractThinFacades(const std::vector<WallPoint>& points, const PointBlocks& blocks,
+                        const WallScale& scale, const WallLineOptions& options,
+                        const std::vector<double>& locked, std::vector<char>& free,
+                        std::vector<FoundLine>& lines) {
+  const double least = options.min_area * scale.density;
+  for (double most = kThinFacade; most > kThinnest; most *= 0.5) {
+    WallScale thin = scale;
+    thin.density = kThinMiddle * most * scale.density;
+    std::vector<char> free_there = free;
+    std::vector<FoundLine> found;
+    extractGreedily(points, blocks, thin, options, false, locked, free_there, found);
+    for (FoundLine& facade : found) {
+      if (static_cast<double>(facade.support.size()) < least) continue;
+      for (const int i : facade.support) free[static_cast<std::size_t>(i)] = 0;
+      lines.push_back(std::move(facade));
     }
   }
 }
@@ -253,6 +276,8 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
   extractGreedily(points, blocks, scale, options, true, all_around, free, lines);
   if (options.steps.thin_heights)
     extractThinParts(points, blocks, scale, options, oriented, all_around, free, lines);
+  if (options.steps.thin_facades && !oriented.empty())
+    extractThinFacades(points, blocks, scale, options, oriented, free, lines);
 
   std::stable_sort(lines.begin(), lines.end(), [](const FoundLine& a, const FoundLine& b) {
     return a.line.support > b.line.support;

@@ -149,6 +149,27 @@ TEST(WallLines, WallsBelowTheLeastAreaAreNone) {
   EXPECT_EQ(findWallLines(points, scaleOf(sampling), {1.0}).size(), 5U);
 }
 
+TEST(WallLines, AFacadeSeenFromAfarIsAWall) {
+  const WallSampling near;
+  WallSampling far = near;
+  far.density = near.density / 7.0;
+  std::mt19937 random(8);
+  std::vector<WallPoint> points;
+  addWall({0, 0}, {12, 0}, near, random, points);
+  addWall({12, 0}, {12, 8}, near, random, points);
+  addWall({12, 8}, {0, 8}, far, random, points);  // area 48, with the points of 7 seen nearby
+  addWall({0, 8}, {0, 0}, near, random, points);
+  const auto facesBack = [](const WallLine& line) { return line.normal.y() > 0.99; };
+  const auto lines = findWallLines(points, scaleOf(near), {kMinArea});
+  EXPECT_EQ(lines.size(), 4U);
+  const auto back = std::find_if(lines.begin(), lines.end(), facesBack);
+  ASSERT_NE(back, lines.end());
+  EXPECT_NEAR(back->across({6.0, 8.0}), 0.0, 5.5 * deviationOf(12.0, far).offset);
+  // Clutter may have so few points, where the least wall seen nearby has more.
+  const auto large = findWallLines(points, scaleOf(near), {20.0});
+  EXPECT_TRUE(std::none_of(large.begin(), large.end(), facesBack));
+}
+
 TEST(WallLines, ScatteredPointsAreNoWalls) {
   const WallSampling sampling;
   std::mt19937 random(7);

@@ -9,6 +9,7 @@ struct MethodSteps {
   // The search for wall lines.
   bool locked_directions = true;  ///< the pass with the directions that the lines share
   bool thin_heights = true;       ///< passes for heights with much fewer points than the rest
+  bool thin_facades = true;       ///< passes for facades with much fewer points than the rest
   bool main_tiles = true;         ///< parallel walls told apart by the medians of tiles
   bool setbacks = true;           ///< storeys set back by a few deviations told apart
   bool flatness = true;           ///< points that are not of one flat wall cut off, along it

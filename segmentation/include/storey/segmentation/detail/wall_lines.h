@@ -28,7 +28,8 @@ pcl::Indices drawEvenly(const pcl::Indices& points);
 ///    Parallel walls a few deviations apart are told apart, where free lines lean over both.
 /// 4. Free pass on what is left.
 /// 5. Both again at heights with much fewer points than the rest, where cells have to be larger.
-/// 6. Lines that duplicate stronger ones, or that others explain, are dropped.
+/// 6. A locked pass for facades with much fewer points than the others.
+/// 7. Lines that duplicate stronger ones, or that others explain, are dropped.
 /// \return lines by support, strongest first
 std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const WallScale& scale,
                                     const WallLineOptions& options);
