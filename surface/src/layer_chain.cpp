@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace storey::detail {
 namespace {
@@ -44,17 +45,24 @@ ChainSolution solveChain(const LayerEnergy& energy, const std::vector<double>& u
   std::vector<double> cost(unary.begin(), unary.begin() + static_cast<std::ptrdiff_t>(m));
   std::vector<double> next(m);
   std::vector<int> from(n * m, 0);
+  std::vector<std::pair<double, std::size_t>> order(m);
   for (std::size_t i = 1; i < n; ++i) {
+    // Cheapest first: pairs cost nothing or more, so what is dearer than the best need not be
+    // tried.
+    for (std::size_t a = 0; a < m; ++a) order[a] = {cost[a], a};
+    std::sort(order.begin(), order.end());
     for (std::size_t b = 0; b < m; ++b) {
       next[b] = kInfinity;
       if (unary[i * m + b] == kInfinity) continue;
-      for (std::size_t a = 0; a < m; ++a) {
-        const double c = cost[a] + energy.pair[a * m + b];
-        if (c < next[b]) {
-          next[b] = c;
-          from[i * m + b] = static_cast<int>(a);
-        }
+      std::size_t best = m;
+      for (const auto& [before, a] : order) {
+        if (before > next[b] || before == kInfinity) break;
+        const double c = before + energy.pair[a * m + b];
+        if (c > next[b] || (c == next[b] && a > best)) continue;  // of equals the first label
+        next[b] = c;
+        best = a;
       }
+      if (best < m) from[i * m + b] = static_cast<int>(best);
       next[b] += unary[i * m + b];
     }
     cost.swap(next);
@@ -71,6 +79,13 @@ ChainSolution solveChain(const LayerEnergy& energy, const std::vector<double>& u
 
 std::size_t countLabels(const std::vector<int>& labels) {
   return std::set<int>(labels.begin(), labels.end()).size();
+}
+
+std::size_t workLimit(const LayerEnergy& energy, std::size_t max_work) {
+  constexpr double kSteps = 2e8;  // some ten seconds, a step being a label of a node
+  if (max_work > 0) return max_work;
+  const auto steps = static_cast<double>(energy.num_nodes * energy.num_labels);
+  return static_cast<std::size_t>(std::clamp(kSteps / steps, 200.0, 20000.0));
 }
 
 std::size_t labelLimit(const LayerEnergy& energy) {

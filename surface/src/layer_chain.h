@@ -29,6 +29,9 @@ bool isConsistent(const LayerEnergy& energy);
 /// How many different labels there are.
 std::size_t countLabels(const std::vector<int>& labels);
 
+/// The limit of dynamic programs for an energy of that size, unless it is given (not 0).
+std::size_t workLimit(const LayerEnergy& energy, std::size_t max_work);
+
 /// The greatest number of labels that may be used.
 std::size_t labelLimit(const LayerEnergy& energy);
 

@@ -88,6 +88,7 @@ class PriceSearch {
 
 LayerLabeling minimizeLayerEnergy(const LayerEnergy& energy, std::size_t max_work) {
   if (energy.num_nodes == 0 || energy.num_labels == 0 || !detail::isConsistent(energy)) return {};
+  max_work = detail::workLimit(energy, max_work);
   if (detail::labelLimit(energy) == energy.num_labels) return branchAndBound(energy, max_work);
   PriceSearch search(energy, max_work);
   const double price = search.run();
@@ -109,11 +110,14 @@ std::vector<LayerTradeOff> tradeOffLabels(const LayerEnergy& energy, std::size_t
   free.label_cost.assign(energy.num_labels, 0.0);
   const double rounding = detail::roundingOf(free);
   const double least = detail::solveChain(free, free.data).energy;
+  max_work = detail::workLimit(energy, max_work);
+  std::size_t work = 0;
   double reached = detail::kInfinity;
-  for (free.max_labels = 1;
-       free.max_labels <= detail::labelLimit(energy) && reached > least + rounding;
+  for (free.max_labels = 1; free.max_labels <= detail::labelLimit(energy) &&
+                            reached > least + rounding && work < max_work;
        ++free.max_labels) {
-    LayerLabeling labeling = minimizeLayerEnergy(free, max_work);
+    LayerLabeling labeling = minimizeLayerEnergy(free, max_work - work);
+    work += labeling.work;
     if (labeling.energy >= reached - rounding) continue;
     reached = labeling.energy;
     front.push_back({countLabels(labeling.labels), std::move(labeling)});

@@ -36,11 +36,13 @@ struct LayerLabeling {
 /// labels is relaxed too: one price for every label, paid back as often as labels are allowed.
 /// \note Deviation: the paper uses alpha-expansion, which is not guaranteed here, for its pairwise
 /// term with k2 = 3 k1 is no metric.
-/// \param max_work limit of dynamic programs, each O(num_nodes num_labels^2); a count, not a time,
-/// so that the result does not depend on the machine. It is looked at between branches, of 122
-/// programs at the most; a limit on the labels takes a few searches of one branch or more each
+/// \param max_work limit of dynamic programs, each O(num_nodes num_labels^2) at worst and mostly
+/// O(num_nodes num_labels log num_labels); a count, not a time, so that the result does not depend
+/// on the machine. 0: from 200 for large problems to 20000 for small ones. It is looked at between
+/// branches, of 122 programs at the most; a limit on the labels takes a few searches of one branch
+/// or more each
 /// \return no labels, after a PCL_ERROR, if a size is wrong or a cost negative or not finite
-LayerLabeling minimizeLayerEnergy(const LayerEnergy& energy, std::size_t max_work = 20000);
+LayerLabeling minimizeLayerEnergy(const LayerEnergy& energy, std::size_t max_work = 0);
 
 /// A point of the trade-off between how many labels are used and how well they fit.
 struct LayerTradeOff {
@@ -52,9 +54,9 @@ struct LayerTradeOff {
 /// least energy for each number of labels, as far as one more label lowers it, by
 /// `minimizeLayerEnergy` with `max_labels` = 1, 2, ... up to the energy's own limit. What label
 /// costs choose among are the points on its convex hull, if all labels cost the same.
-/// \param max_work for each number of labels
+/// \param max_work of all numbers of labels together, as there; the front ends where it does
 /// \return ascending in number, descending in energy
-std::vector<LayerTradeOff> tradeOffLabels(const LayerEnergy& energy, std::size_t max_work = 20000);
+std::vector<LayerTradeOff> tradeOffLabels(const LayerEnergy& energy, std::size_t max_work = 0);
 
 /// Alpha-expansion with label costs on the same chain, for comparison: from the best single label,
 /// each expansion move is a binary chain, solved by dynamic programming without the label costs and
