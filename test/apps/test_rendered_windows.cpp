@@ -67,7 +67,6 @@ TEST(RenderedWindows, AreFoundWhereTheyArePainted) {
 
 TEST(RenderedWindows, AreNotProposedWhereThereAreNone) {
   PhotoOptions blank = tenViews(0.0);
-  blank.width = 400;
   blank.window_pitch = 50.0;  // more than the walls have room for
   const Rendered rendered("box", blank);
   const WindowDetection detection(rendered.scene.facades(), rendered.photos);
