@@ -8,8 +8,8 @@
 #include <random>
 
 #include "io/cloud_reader.h"
-#include "io/failure.h"
 #include "io/cloud_writer.h"
+#include "io/failure.h"
 #include "temporary_files.h"
 
 namespace storey {

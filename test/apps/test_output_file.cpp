@@ -11,9 +11,9 @@
 #include <functional>
 #include <limits>
 
+#include "io/cloud_writer.h"
 #include "io/failure.h"
 #include "io/output_file.h"
-#include "io/cloud_writer.h"
 #include "temporary_files.h"
 
 namespace storey {
