@@ -21,7 +21,8 @@ cp /etc/resolv.conf "$root/etc/"
 mkdir "$root/packages"
 cp "$packages"/*.deb "$root/packages/"
 cp -r "$source/apps/examples" "$root/examples"
-cp -r "$source/test/consumer" "$root/consumer"
+mkdir "$root/test"
+cp -r "$source/test/consumer" "$source/test/foreign_point.h" "$root/test/"
 
 chroot "$root" /bin/bash -euc '
   export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8
@@ -37,7 +38,7 @@ chroot "$root" /bin/bash -euc '
   cmake -S /examples -B /tmp/build >/dev/null
   cmake --build /tmp/build >/dev/null
   /tmp/build/five_classes /tmp/cloud.ply /tmp/model.vtk
-  cmake -S /consumer -B /tmp/consumer >/dev/null
+  cmake -S /test/consumer -B /tmp/consumer >/dev/null
   cmake --build /tmp/consumer >/dev/null
   /tmp/consumer/readme_example
   /tmp/consumer/foreign_point
