@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #include "io/point_index.h"
 
@@ -20,16 +19,6 @@ constexpr double kMinUsableExtent = 1e-290;     // and so do reciprocals of such
 
 using Axes = std::array<std::vector<double>, 3>;
 
-std::uint64_t hashPoint(const double* point) {
-  std::uint64_t hash = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, point + axis, sizeof bits);
-    hash = mixBits(hash ^ bits);
-  }
-  return hash;
-}
-
 /// Every `stride`-th point on average, chosen by its coordinates so that the order of the points
 /// does not matter.
 Axes sampleAxes(const std::vector<double>& positions, std::uint64_t stride) {
@@ -39,7 +28,7 @@ Axes sampleAxes(const std::vector<double>& positions, std::uint64_t stride) {
     const bool usable = std::all_of(point, point + 3, [](double coordinate) {
       return std::abs(coordinate) < kMaxUsableCoordinate;
     });
-    if (!usable || (stride > 1 && hashPoint(point) % stride != 0)) continue;
+    if (!usable || (stride > 1 && hashPosition(point) % stride != 0)) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) axes[axis].push_back(point[axis]);
   }
   return axes;

@@ -17,6 +17,17 @@ inline std::uint64_t mixBits(std::uint64_t bits) {
   return bits ^ (bits >> 31);
 }
 
+/// Of the position at these three numbers, as good as random.
+inline std::uint64_t hashPosition(const double* position) {
+  std::uint64_t hash = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, position + axis, sizeof bits);
+    hash = mixBits(hash ^ bits);
+  }
+  return hash;
+}
+
 /// Numbers distinct positions 0, 1, 2, ... in the order of their first coming: an open hash table,
 /// O(1) a point however many share a place.
 class PointIndex {

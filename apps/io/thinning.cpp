@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cstring>
 
 #include "io/point_index.h"
 #include "io/point_records.h"
 
 namespace storey::io {
 namespace {
-
-/// Of a position, as good as random.
-std::uint64_t keyOf(const double* position) {
-  std::uint64_t key = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, position + axis, sizeof bits);
-    key = mixBits(key ^ bits);
-  }
-  return key;
-}
 
 template <typename Number>
 void moveEntries(std::vector<Number>& entries, std::size_t each, std::size_t from, std::size_t to) {
@@ -28,7 +16,7 @@ void moveEntries(std::vector<Number>& entries, std::size_t each, std::size_t fro
 }  // namespace
 
 void RawCloud::settle() {
-  if (key_limit_ < kAllKeys && keyOf(&positions[positions.size() - 3]) >= key_limit_) {
+  if (key_limit_ < kAllKeys && hashPosition(&positions[positions.size() - 3]) >= key_limit_) {
     cut(size() - 1);
   }
   thin(max_points_);
@@ -39,7 +27,7 @@ void RawCloud::thin(std::uint64_t max_points) {
     key_limit_ -= std::max<std::uint64_t>(key_limit_ / 8, 1);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < size(); ++i) {
-      if (keyOf(&positions[3 * i]) >= key_limit_) continue;
+      if (hashPosition(&positions[3 * i]) >= key_limit_) continue;
       moveEntries(positions, 3, i, kept);
       if (!normals.empty()) moveEntries(normals, 3, i, kept);
       for (ExtraColumn& extra : extras) moveEntries(extra.values, 1, i, kept);

@@ -19,6 +19,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/images/vtk_image.h"
+
 namespace storey::view {
 namespace {
 
@@ -110,14 +112,7 @@ void addFacets(vtkRenderer& renderer, const FacetSet& set) {
 }
 
 vtkNew<vtkTexture> toVtk(const RgbImage& image) {
-  vtkNew<vtkImageData> data;
-  data->SetDimensions(image.width, image.height, 1);
-  data->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  for (int y = 0; y < image.height; ++y) {
-    const auto* const row = image.at(0, y);
-    std::copy(row, row + 3 * image.width,
-              static_cast<unsigned char*>(data->GetScalarPointer(0, image.height - 1 - y, 0)));
-  }
+  const vtkNew<vtkImageData> data = io::toVtkImage(image);
   vtkNew<vtkTexture> texture;
   texture->SetInputData(data);
   texture->InterpolateOn();

@@ -2,7 +2,6 @@
 // The window of the viewer, driven by the events that a user's keys and mouse make. Starts a
 // virtual display for itself where there is none.
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <vtkCommand.h>
 #include <vtkObject.h>
 #include <vtkOutputWindow.h>
@@ -11,6 +10,7 @@
 
 #include "view/stages.h"
 #include "view/viewer_window.h"
+#include "view/virtual_display.h"
 #include "view_files.h"
 
 namespace storey::view {
@@ -141,14 +141,7 @@ TEST_F(ViewerWindowTest, AKeyClosesIt) {
 }  // namespace storey::view
 
 int main(int argc, char** argv) {
-  if (std::getenv("DISPLAY") == nullptr && std::getenv("STOREY_NO_DISPLAY") == nullptr) {
-    setenv("STOREY_NO_DISPLAY", "1", 1);  // do not try again
-    std::vector<char*> command;
-    std::string words[] = {"xvfb-run", "-a", "-s", "-screen 0 1600x1200x24 -noreset"};
-    for (std::string& word : words) command.push_back(word.data());
-    command.insert(command.end(), argv, argv + argc + 1);  // with the null at the end
-    execvp(command[0], command.data());                    // returns if there is no xvfb-run
-  }
+  storey::view::restartOnVirtualDisplay(argv);  // returns if there is no xvfb-run
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

@@ -16,6 +16,7 @@
 
 #include "io/failure.h"
 #include "io/image_header.h"
+#include "io/images/vtk_image.h"
 #include "io/input_file.h"
 #include "io/output_file.h"
 
@@ -99,14 +100,7 @@ RgbImage turnedUpright(const RgbImage& stored, int orientation) {
 /// The bytes of a file as one of VTK's writers makes it.
 template <typename Writer>
 std::string encode(Writer& writer, const RgbImage& image) {
-  vtkNew<vtkImageData> data;
-  data->SetDimensions(image.width, image.height, 1);
-  data->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  for (int y = 0; y < image.height; ++y) {
-    const auto* const row = image.at(0, y);
-    std::copy(row, row + 3 * image.width,
-              static_cast<unsigned char*>(data->GetScalarPointer(0, image.height - 1 - y, 0)));
-  }
+  const vtkNew<vtkImageData> data = toVtkImage(image);
   writer.SetInputData(data);
   writer.WriteToMemoryOn();
   writer.Write();
