@@ -41,9 +41,14 @@ void LinePoints::moveTo(const WallLine& line) {
   }
 }
 
-std::pair<double, double> LinePoints::ends() const {
-  const auto [low, high] = std::minmax_element(s.begin(), s.end());
-  return {*low, *high};
+std::pair<double, double> rangeOf(const std::vector<double>& values) {
+  double low = values.front();
+  double high = low;
+  for (const double value : values) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  return {low, high};
 }
 
 void LinePoints::resize(std::size_t size) {

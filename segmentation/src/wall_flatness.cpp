@@ -36,7 +36,7 @@ struct Moments {
 class Profile {
  public:
   explicit Profile(const LinePoints& support) : bin_of_(support.size()) {
-    const auto [low, high] = support.ends();
+    const auto [low, high] = rangeOf(support.s);
     const double step = std::max((high - low) / kBins, std::numeric_limits<double>::min());
     for (std::size_t k = 0; k < support.size(); ++k) {
       const double s = support.s[k] - low;
@@ -123,14 +123,13 @@ std::pair<std::size_t, std::size_t> withoutSetback(const std::array<Heights, kLe
 
 LinePoints atMainHeights(LinePoints support, double noise) {
   if (support.empty()) return support;
-  const auto [low, high] = std::minmax_element(support.z.begin(), support.z.end());
-  const double foot = *low;
-  const double step = std::max((*high - foot) / kLevels, std::numeric_limits<double>::min());
+  const auto [low, high] = rangeOf(support.z);
+  const double step = std::max((high - low) / kLevels, std::numeric_limits<double>::min());
   std::vector<std::uint8_t> level_of(support.size());
   std::array<Heights, kLevels> levels;
   for (std::size_t k = 0; k < support.size(); ++k) {
     const std::size_t level =
-        std::min(static_cast<std::size_t>((support.z[k] - foot) / step), kLevels - 1);
+        std::min(static_cast<std::size_t>((support.z[k] - low) / step), kLevels - 1);
     level_of[k] = static_cast<std::uint8_t>(level);
     levels[level].add({1.0, support.d[k]});
   }
@@ -148,7 +147,7 @@ LinePoints atMainHeights(LinePoints support, double noise) {
 std::vector<std::pair<double, double>> runsAlong(const LinePoints& support,
                                                  const WallScale& scale) {
   if (support.empty()) return {};
-  const auto [low, high] = support.ends();
+  const auto [low, high] = rangeOf(support.s);
   const double side = supportCellSize(scale);
   std::vector<char> seen(static_cast<std::size_t>((high - low) / side) + 1, 0);
   for (const double s : support.s) seen[static_cast<std::size_t>((s - low) / side)] = 1;

@@ -31,10 +31,8 @@ constexpr double kStray = 0.03;        // of the support, at either end
 class CellGrid {
  public:
   CellGrid(const LinePoints& points, double side) : side_(side) {
-    std::tie(low_.x(), high_.x()) = points.ends();
-    const auto [low, high] = std::minmax_element(points.z.begin(), points.z.end());
-    low_.y() = *low;
-    high_.y() = *high;
+    std::tie(low_.x(), high_.x()) = rangeOf(points.s);
+    std::tie(low_.y(), high_.y()) = rangeOf(points.z);
     columns_ = static_cast<std::ptrdiff_t>((high_.x() - low_.x()) / side) + 1;
     rows_ = static_cast<std::ptrdiff_t>((high_.y() - low_.y()) / side) + 1;
   }

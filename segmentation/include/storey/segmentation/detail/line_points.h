@@ -47,11 +47,11 @@ struct LinePoints {
   /// Changes to the coordinates of another line.
   void moveTo(const WallLine& line);
 
-  /// Least and greatest s; there is a point.
-  std::pair<double, double> ends() const;
-
  private:
   void resize(std::size_t size);
 };
+
+/// The least and the greatest of some values, of which there is one at least.
+std::pair<double, double> rangeOf(const std::vector<double>& values);
 
 }  // namespace storey::detail
