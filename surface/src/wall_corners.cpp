@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <utility>
 
 namespace storey::detail {
@@ -67,6 +68,12 @@ std::size_t shortestTurned(const FloorplanRing& ring, const FloorplanRing& moved
   return shortest;
 }
 
+std::size_t shortestOf(const FloorplanRing& ring, std::initializer_list<std::size_t> edges) {
+  return *std::min_element(edges.begin(), edges.end(), [&](std::size_t a, std::size_t b) {
+    return lengthOf(ring, a) < lengthOf(ring, b);
+  });
+}
+
 // Takes the edge away: its neighbours meet, wherever their lines do.
 void remove(std::size_t edge, FloorplanRing& ring, std::vector<Line>& lines) {
   const auto i = static_cast<std::ptrdiff_t>(edge);
@@ -88,10 +95,8 @@ bool moveCorners(FloorplanRing& ring, const std::map<int, WallFit>& fits) {
       ring = std::move(moved);
       return true;
     }
-    const double neighbours =
-        std::min(lengthOf(tried, (edge + 1) % n), lengthOf(tried, (edge + n - 1) % n));
-    if (n <= 3 || lengthOf(tried, edge) > neighbours) return false;
-    remove(edge, tried, lines);
+    if (n <= 3) return false;
+    remove(shortestOf(tried, {edge, (edge + 1) % n, (edge + n - 1) % n}), tried, lines);
   }
 }
 

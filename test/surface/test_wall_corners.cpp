@@ -86,6 +86,18 @@ TEST(MoveCorners, DropsTheLastEdgeOfARingAsAnyOther) {
   EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{0, 1, 2, 3}));
 }
 
+TEST(MoveCorners, DropsAShortEdgeThatTurnsALongerOneAround) {
+  // The short edge from (10, 9) to (10.02, 9.2), moved in by 0.1, would cross x = 10.02 at a height
+  // of 10.2, beyond the top of the edge on that line. Without it that edge is parallel to the
+  // longer one on x = 10, which the corner is put on.
+  const Corners ring = {{0.0, 0.0},   {10.0, 0.0},   {10.0, 9.0},
+                        {10.02, 9.2}, {10.02, 10.0}, {0.0, 10.0}};
+  std::vector<FloorplanLayer> layers = layerOf(ring);
+  detail::moveCorners(layers, fitsOf(ring, {0.0, 0.0, -0.1, 0.0, 0.0, 0.0}));
+  expectCorners(ringOf(layers), {{0.0, 0.0}, {10.0, 0.0}, {10.0, 9.2}, {10.02, 10.0}, {0.0, 10.0}});
+  EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{0, 1, -1, 4, 5}));
+}
+
 TEST(MoveCorners, LeavesRingsAloneWhoseLongEdgesWouldTurnAround) {
   // A side of the square moved past the opposite one.
   std::vector<FloorplanLayer> layers = layerOf(kSquare);
