@@ -136,7 +136,7 @@ void findPanes(const AssignedPoints& points, double noise, Walls& walls) {
     seen.push_back(&walls[k]);
     histograms.push_back(residuals[k].histogram);
   }
-  const std::vector<detail::WallPanes> all_panes = detail::fitPanes(histograms);
+  const std::vector<detail::WallPanes> all_panes = detail::fitPanes(histograms, points.threads);
   for (std::size_t k = 0; k < all_panes.size(); ++k) seen[k]->panes = all_panes[k];
 }
 
