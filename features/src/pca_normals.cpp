@@ -13,7 +13,7 @@ namespace {
 constexpr double kNeighborsPerNoise = 80.0;  // k = 80 density noise^2 is a radius of 5 noises
 constexpr int kFewestNeighbors = 16;
 constexpr int kMostNeighbors = 200;
-constexpr double kLine = 1e-6;  // second variance over the first below which no plane is spanned
+constexpr double kLine = 1e-9;  // second variance over the first below which no plane is spanned
 
 int derivedNeighbors(const std::vector<Eigen::Vector3f>& positions) {
   const CloudScale scale = estimateCloudScale(positions, kDefaultScaleSeed);
@@ -22,9 +22,7 @@ int derivedNeighbors(const std::vector<Eigen::Vector3f>& positions) {
 }
 
 PcaNormal fitNormal(const MomentBatch& batch, std::size_t lane) {
-  const auto moment = [&](std::size_t which) {
-    return static_cast<double>(batch.moments[which].of[lane]);
-  };
+  const auto moment = [&](std::size_t which) { return batch.moments[which][lane]; };
   const Eigen::Vector3d sum(moment(0), moment(1), moment(2));
   Eigen::Matrix3d covariance;
   covariance << moment(3), moment(4), moment(5), moment(4), moment(6), moment(7), moment(5),

@@ -23,6 +23,7 @@ template <std::size_t kWidth>
 struct Register {
   typedef float Floats __attribute__((vector_size(kWidth * sizeof(float)), may_alias));
   typedef std::int32_t Ints __attribute__((vector_size(kWidth * sizeof(std::int32_t)), may_alias));
+  typedef double Doubles __attribute__((vector_size(kWidth * sizeof(double)), may_alias));
 };
 
 struct Input {
@@ -100,21 +101,24 @@ STOREY_INLINE void findLimits(const Input& in, std::size_t first, const Lanes* s
   at<Floats>(limits, first) = found ? limit : nothing + __builtin_nanf("");
 }
 
+// A register holds half as many doubles.
 template <std::size_t kWidth>
 STOREY_INLINE void addUp(const Input& in, std::size_t first, const Lanes* squared,
                          const Lanes& limits, MomentLanes& moments) {
   using Floats = typename Register<kWidth>::Floats;
   using Ints = typename Register<kWidth>::Ints;
-  const Floats qx = at<Floats>(in.queries[0], first);
-  const Floats qy = at<Floats>(in.queries[1], first);
-  const Floats qz = at<Floats>(in.queries[2], first);
+  using Doubles = typename Register<kWidth>::Doubles;
+  const Doubles qx = __builtin_convertvector(at<Floats>(in.queries[0], first), Doubles);
+  const Doubles qy = __builtin_convertvector(at<Floats>(in.queries[1], first), Doubles);
+  const Doubles qz = __builtin_convertvector(at<Floats>(in.queries[2], first), Doubles);
   const Floats limit = at<Floats>(limits, first);
-  Floats sums[9] = {};
+  Doubles sums[9] = {};
   for (std::size_t i = 0; i < in.n; ++i) {
-    const Ints within = at<Floats>(squared[i], first) <= limit;
-    const Floats dx = within ? in.candidates.x[i] - qx : Floats{};
-    const Floats dy = within ? in.candidates.y[i] - qy : Floats{};
-    const Floats dz = within ? in.candidates.z[i] - qz : Floats{};
+    const Ints within = at<Floats>(squared[i], first) <= limit;  // true is -1
+    const Doubles weight = -__builtin_convertvector(within, Doubles);
+    const Doubles dx = (static_cast<double>(in.candidates.x[i]) - qx) * weight;
+    const Doubles dy = (static_cast<double>(in.candidates.y[i]) - qy) * weight;
+    const Doubles dz = (static_cast<double>(in.candidates.z[i]) - qz) * weight;
     sums[0] += dx;
     sums[1] += dy;
     sums[2] += dz;
@@ -126,7 +130,9 @@ STOREY_INLINE void addUp(const Input& in, std::size_t first, const Lanes* square
     sums[8] += dz * dz;
   }
   for (std::size_t s = 0; s < 9; ++s) {
-    at<Floats>(moments[s], first) = sums[s];
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      moments[s][first + lane] = sums[s][lane];
+    }
   }
 }
 
@@ -135,7 +141,8 @@ STOREY_INLINE void momentsIn(const Input& in, Lanes* squared, Lanes& limits, Mom
   for (std::size_t first = 0; first < kLanes; first += kWidth) {
     measure<kWidth>(in, first, squared);
     findLimits<kWidth>(in, first, squared, limits);
-    addUp<kWidth>(in, first, squared, limits, moments);
+    addUp<kWidth / 2>(in, first, squared, limits, moments);
+    addUp<kWidth / 2>(in, first + kWidth / 2, squared, limits, moments);
   }
 }
 

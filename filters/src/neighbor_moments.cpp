@@ -210,15 +210,18 @@ MomentBatch momentsOf(const Neighborhood& neighborhood, const std::array<float, 
   batch.ids.fill(-1);
   batch.ids[0] = neighborhood.id;
   batch.count = neighborhood.count;
-  std::array<float, 9> sums{};
+  std::array<double, 9> sums{};
+  const auto difference = [](float to, float from) {
+    return static_cast<double>(to) - static_cast<double>(from);
+  };
   for (std::size_t i = 0; i < neighborhood.count; ++i) {
-    const float dx = neighborhood.x[i] - origin[0];
-    const float dy = neighborhood.y[i] - origin[1];
-    const float dz = neighborhood.z[i] - origin[2];
-    const float terms[9] = {dx, dy, dz, dx * dx, dx * dy, dx * dz, dy * dy, dy * dz, dz * dz};
+    const double dx = difference(neighborhood.x[i], origin[0]);
+    const double dy = difference(neighborhood.y[i], origin[1]);
+    const double dz = difference(neighborhood.z[i], origin[2]);
+    const double terms[9] = {dx, dy, dz, dx * dx, dx * dy, dx * dz, dy * dy, dy * dz, dz * dz};
     for (std::size_t s = 0; s < 9; ++s) sums[s] += terms[s];
   }
-  for (std::size_t s = 0; s < 9; ++s) batch.moments[s].of.fill(sums[s]);
+  for (std::size_t s = 0; s < 9; ++s) batch.moments[s].fill(sums[s]);
   return batch;
 }
 

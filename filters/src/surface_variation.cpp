@@ -23,15 +23,15 @@ void surfaceVariations(const MomentLanes& moments, double count,
   double x[kLanes];
   std::int64_t is_moving[kLanes];  // no lane knows another: they stop one by one
   for (std::size_t i = 0; i < kLanes; ++i) {
-    const double sx = static_cast<double>(moments[0].of[i]);
-    const double sy = static_cast<double>(moments[1].of[i]);
-    const double sz = static_cast<double>(moments[2].of[i]);
-    const double xx = static_cast<double>(moments[3].of[i]) - sx * sx * share;
-    const double xy = static_cast<double>(moments[4].of[i]) - sx * sy * share;
-    const double xz = static_cast<double>(moments[5].of[i]) - sx * sz * share;
-    const double yy = static_cast<double>(moments[6].of[i]) - sy * sy * share;
-    const double yz = static_cast<double>(moments[7].of[i]) - sy * sz * share;
-    const double zz = static_cast<double>(moments[8].of[i]) - sz * sz * share;
+    const double sx = moments[0][i];
+    const double sy = moments[1][i];
+    const double sz = moments[2][i];
+    const double xx = moments[3][i] - sx * sx * share;
+    const double xy = moments[4][i] - sx * sy * share;
+    const double xz = moments[5][i] - sx * sz * share;
+    const double yy = moments[6][i] - sy * sy * share;
+    const double yz = moments[7][i] - sy * sz * share;
+    const double zz = moments[8][i] - sz * sz * share;
     const double trace = xx + yy + zz;
     const double unit = 1.0 / (trace > 0.0 ? trace : 1.0);
     const double minor = yy * zz - yz * yz;

@@ -69,9 +69,8 @@ std::array<double, 9> momentsAbout(const pcl::PointCloud<pcl::PointXYZ>& cloud, 
                                    const pcl::Indices& ids) {
   std::array<double, 9> sums{};
   for (const pcl::index_t id : ids) {
-    const Eigen::Vector3d d =
-        (cloud[static_cast<std::size_t>(id)].getVector3fMap() - cloud[origin].getVector3fMap())
-            .cast<double>();
+    const Eigen::Vector3d d = cloud[static_cast<std::size_t>(id)].getVector3fMap().cast<double>() -
+                              cloud[origin].getVector3fMap().cast<double>();
     const std::array<double, 9> terms = {d.x(),         d.y(),         d.z(),
                                          d.x() * d.x(), d.x() * d.y(), d.x() * d.z(),
                                          d.y() * d.y(), d.y() * d.z(), d.z() * d.z()};
@@ -80,16 +79,15 @@ std::array<double, 9> momentsAbout(const pcl::PointCloud<pcl::PointXYZ>& cloud, 
   return sums;
 }
 
-// A float sum of k terms is off by less than k 2^-24 of the sum of their sizes, which for the
-// products is their trace at most, and for the sums the root of k times that.
+// A sum of k terms is off by less than k 2^-53 of the sum of their sizes, which for the products is
+// their trace at most, and for the sums the root of k times that.
 void expectMoments(const MomentBatch& batch, std::size_t lane,
                    const std::array<double, 9>& expected) {
   const auto k = static_cast<double>(batch.count);
   const double trace = expected[3] + expected[6] + expected[8];
   for (std::size_t s = 0; s < 9; ++s) {
     const double size = s < 3 ? std::sqrt(k * trace) : trace;
-    ASSERT_NEAR(static_cast<double>(batch.moments[s].of[lane]), expected[s],
-                (k + 3.0) * std::ldexp(1.0, -24) * size);
+    ASSERT_NEAR(batch.moments[s][lane], expected[s], (k + 3.0) * std::ldexp(1.0, -53) * size);
   }
 }
 
@@ -142,7 +140,7 @@ TEST(NeighborSearch, VisitsNothingWithoutPositions) {
 TEST(NeighborSearch, VisitsTheWantedWithTheSameMomentsInAnyCompany) {
   const DistinctPositions distinct = storey::detail::findDistinctPositions(makeUneven());
   const NeighborSearch search(distinct.cloud);
-  using Sums = std::array<float, 9>;
+  using Sums = std::array<double, 9>;
   const auto momentsOf = [&](std::size_t step, unsigned int threads) {
     std::vector<char> wanted(distinct.cloud->size(), 0);
     for (std::size_t i = 0; i < wanted.size(); i += step) wanted[i] = 1;
@@ -151,7 +149,7 @@ TEST(NeighborSearch, VisitsTheWantedWithTheSameMomentsInAnyCompany) {
       for (std::size_t lane = 0; lane < storey::detail::kLanes; ++lane) {
         if (batch.ids[lane] < 0) continue;
         for (std::size_t s = 0; s < 9; ++s) {
-          found[static_cast<std::size_t>(batch.ids[lane])][s] = batch.moments[s].of[lane];
+          found[static_cast<std::size_t>(batch.ids[lane])][s] = batch.moments[s][lane];
         }
       }
     });

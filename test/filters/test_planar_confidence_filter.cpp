@@ -89,15 +89,12 @@ class PlanarConfidenceFilterOf : public testing::Test {
 };
 TYPED_TEST_SUITE(PlanarConfidenceFilterOf, OrientedPointTypes);
 
-// Sums of 30 floats are off by 2e-6 of the trace at most, and k changes by 0.02 exp(-0.02 / s) /
-// s^2, 27 at most, for each unit of the surface variation s; rounding errors rarely add up so
-// badly.
 TYPED_TEST(PlanarConfidenceFilterOf, ComputesTheFormulaOverTheNearest) {
   const auto cloud = makeWallAndBush<TypeParam>();
   const std::vector<double> found = this->confidences(cloud);
   ASSERT_EQ(found.size(), cloud->size());
   for (std::size_t i = 0; i < cloud->size(); ++i) {
-    ASSERT_NEAR(found[i], bruteForceConfidence(*cloud, i, 30), 1e-5) << i;
+    ASSERT_NEAR(found[i], bruteForceConfidence(*cloud, i, 30), 1e-9) << i;
   }
 }
 

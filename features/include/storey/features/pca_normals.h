@@ -28,8 +28,8 @@ std::vector<PcaNormal> estimatePcaNormals(const std::vector<Eigen::Vector3f>& po
 }  // namespace detail
 
 /// Estimates a normal for every point of a cloud that has none: the direction of least variance
-/// of its k nearest distinct positions, itself among them: moments about the point in single
-/// precision, all else in double. The sign is arbitrary (`OutwardNormalOrientation` sets it), but
+/// of its k nearest distinct positions, itself among them, in double precision about the
+/// point. The sign is arbitrary (`OutwardNormalOrientation` sets it), but
 /// the same for the same positions. If the point type has a curvature, it becomes the surface
 /// variation l3 / (l1 + l2 + l3). NaN where the position is not finite or the neighbours span no
 /// plane. \param[in,out] cloud its normals and curvatures are overwritten \param k >= 3, or 0

@@ -57,7 +57,7 @@ struct alignas(kLanes * sizeof(float)) Lanes {
 
 /// For each lane first and second moments of its neighbours about its query: of x, y, z, xx, xy,
 /// xz, yy, yz and zz, added one neighbour after the other.
-using MomentLanes = std::array<Lanes, 9>;
+using MomentLanes = std::array<std::array<double, kLanes>, 9>;
 
 /// Finds the k nearest among n candidates for each of `kLanes` queries, and their moments.
 /// \param queries x, y and z \param guess > 0, of the squared distance to the k-th
