@@ -95,7 +95,7 @@ TEST(StageFiles, GroupsThatDoNotExistAreRefused) {
   const std::string path = directory.file("a.pcd");
   for (const Group group : {Class, Slice, Direction}) {
     StageCloud cloud = makeCloud();
-    cloud.groups(group)[3] = group == Class ? 6 : group == Slice ? 1200 : 3;  // one too many
+    cloud.groups(group)[3] = group == Class ? detail::kNumPointClasses : group == Slice ? 1200 : 3;  // one too many
     writeStageCloud(path, cloud);
     try {
       readStageCloud(path);
