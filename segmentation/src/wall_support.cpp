@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/wall_bends.h>
 #include <storey/segmentation/detail/wall_flatness.h>
 #include <storey/segmentation/detail/wall_support.h>
 
@@ -17,6 +18,7 @@ constexpr double kSettled = 5.0;                   // gates below: the line is n
 constexpr double kUnsettled = 1.5;                 // times the reach, before that
 constexpr double kMinOccupancy = 0.3;              // of the expected points of a cell
 constexpr int kMinFullNeighbors = 3;               // of eight
+constexpr int kGrowths = 3;
 constexpr double kTilePoints = 50.0;
 constexpr double kMinTiles = 4.0;      // fewer tell no majority
 constexpr std::size_t kMinInTile = 5;  // points, for a median
@@ -212,10 +214,41 @@ void fitLine(const std::vector<WallPoint>& points, const std::vector<int>& suppo
 // The part of the support that is one flat wall. A line whose direction is free is taken by the
 // part that is; one whose direction is locked takes it only where it does not turn against it.
 std::vector<int> flatPart(const std::vector<WallPoint>& points, const std::vector<int>& support,
-                          const WallScale& scale, bool fit_direction, const WallLine& line) {
-  std::vector<int> flat = withoutLeaningRuns(points, support, scale, line);
-  if (!fit_direction) return flat;
+                          const WallScale& scale, const SupportOptions& options,
+                          const WallLine& line) {
+  std::vector<int> flat = withoutLeaningRuns(points, support, scale, line, options.by_normals);
+  if (!options.fit_direction) return flat;
   return flatStretch(points, alongMainHalf(points, flat, scale, line), scale, line);
+}
+
+// A free line again, among all its candidates: what it was cut down to is as short as the panes at
+// its ends made it, and turned by them. Where the points bend, another wall goes on.
+std::vector<int> grownAlong(const std::vector<WallPoint>& points,
+                            const std::vector<int>& candidates, double cut, const WallScale& scale,
+                            const SupportOptions& options, WallLine& line) {
+  std::vector<int> support;
+  for (int round = 0; round < kGrowths; ++round) {
+    support = inFullCells(points, withinGate(points, candidates, line, cut), scale, line);
+    if (options.steps.main_tiles) support = inMainTiles(points, support, scale, line, true);
+    support = onOneSideOfBend(points, support, scale, line);
+    if (support.empty()) return {};
+    fitLine(points, support, cut, true, line);
+  }
+  return flatPart(points, support, scale, options, line);
+}
+
+// A locked direction may be that of another wall, whose line would lean over this one; or the line
+// meets another wall further on, maybe at a small angle.
+std::vector<int> endedAlong(const std::vector<WallPoint>& points, const std::vector<int>& support,
+                            double cut, const WallScale& scale, WallLine& line) {
+  std::vector<int> flat = flatStretch(points, support, scale, line);
+  if (static_cast<double>(flat.size()) < kMinFlatShare * static_cast<double>(support.size())) {
+    return {};
+  }
+  fitLine(points, flat, cut, false, line);
+  flat = onOneSideOfBend(points, flat, scale, line);
+  if (!flat.empty()) fitLine(points, flat, cut, false, line);
+  return flat;
 }
 
 std::vector<char> seenCells(const std::vector<WallPoint>& points, const std::vector<int>& support,
@@ -292,22 +325,21 @@ std::vector<int> fitToSupport(const std::vector<WallPoint>& points,
     if (support.empty()) return {};
     fitLine(points, support, cut, free, line);
     if (!options.steps.flatness) continue;
-    std::vector<int> flat = flatPart(points, support, scale, free, line);
+    std::vector<int> flat = flatPart(points, support, scale, options, line);
     if (flat.empty()) return {};
     if (flat.size() == support.size()) continue;
     support = std::move(flat);
     if (free) pool = support;  // what was cut off must not turn the line again
     fitLine(points, support, cut, free, line);
   }
-  if (!free && options.steps.flatness) {
-    // A locked direction may be that of another wall, whose line would lean over this one; or the
-    // line meets another wall further on.
-    std::vector<int> flat = flatStretch(points, support, scale, line);
-    if (static_cast<double>(flat.size()) < kMinFlatShare * static_cast<double>(support.size())) {
-      return {};
+  if (options.steps.flatness) {
+    if (free) {
+      describeSupport(points, support, scale, line);
+      if (line.support_area < options.min_area) return {};  // clutter would only grow into a wall
     }
-    support = std::move(flat);
-    fitLine(points, support, cut, false, line);
+    support = free ? grownAlong(points, candidates, cut, scale, options, line)
+                   : endedAlong(points, support, cut, scale, line);
+    if (support.empty()) return {};
   }
   if (options.steps.surface_test && !isSurface(points, support, candidates, scale, line)) return {};
   describeSupport(points, support, scale, line);

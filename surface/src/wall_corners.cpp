@@ -64,11 +64,29 @@ void remove(std::size_t edge, FloorplanRing& ring, std::vector<Line>& lines) {
   lines.erase(lines.begin() + i);
 }
 
+// Without the shorter of two edges that go on from each other in nearly the same line: what crosses
+// so flatly has no stable corner.
+void straighten(FloorplanRing& ring, std::vector<Line>& lines) {
+  for (std::size_t i = 0; i < ring.size() && ring.size() > 3;) {
+    const std::size_t before = (i + ring.size() - 1) % ring.size();
+    const Eigen::Vector2d& a = lines[before].normal;
+    const Eigen::Vector2d& b = lines[i].normal;
+    const bool flat = std::abs(a.x() * b.y() - a.y() * b.x()) < std::sin(kMinTurn);
+    if (!flat || a.dot(b) < 0.0) {
+      ++i;
+      continue;
+    }
+    remove(lengthOf(ring, before) < lengthOf(ring, i) ? before : i, ring, lines);
+    i = 0;
+  }
+}
+
 // \return false if there is no such ring
 bool moveCorners(FloorplanRing& ring, const std::map<int, WallFit>& fits) {
   std::vector<Line> lines;
   for (std::size_t i = 0; i < ring.size(); ++i) lines.push_back(lineOf(ring, i, fits));
   FloorplanRing tried = ring;
+  straighten(tried, lines);
   FloorplanRing moved;
   while (intersect(tried, lines, moved)) {
     const std::size_t n = tried.size();

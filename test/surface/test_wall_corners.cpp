@@ -86,6 +86,15 @@ TEST(MoveCorners, DropsTheLastEdgeOfARingAsAnyOther) {
   EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{0, 1, 2, 3}));
 }
 
+TEST(MoveCorners, MakesOneOfEdgesThatGoOnInNearlyTheSameLine) {
+  // The top of the square, its left third turned by 0.01 rad about where the parts meet.
+  const Corners ring = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}, {3.0, 10.0}, {0.0, 10.03}};
+  std::vector<FloorplanLayer> layers = layerOf(ring);
+  detail::moveCorners(layers, fitsOf(ring, {0.0, 0.0, 0.0, 0.0, 0.0}));
+  expectCorners(ringOf(layers), kSquare);
+  EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{0, 1, 2, 4}));
+}
+
 TEST(MoveCorners, LeavesRingsAloneWhoseLongEdgesWouldTurnAround) {
   // A side of the square moved past the opposite one.
   std::vector<FloorplanLayer> layers = layerOf(kSquare);

@@ -26,10 +26,11 @@ std::vector<int> atMainHeights(const std::vector<WallPoint>& points,
                                const WallLine& line);
 
 /// Without the runs that turn against the line by more than their noise explains: they are of walls
-/// that the line only crosses.
+/// that the line only crosses. \param by_normals those whose normals clearly do not turn stay:
+/// panes that are set back in one end of a short wall turn its places alone
 std::vector<int> withoutLeaningRuns(const std::vector<WallPoint>& points,
                                     const std::vector<int>& support, const WallScale& scale,
-                                    const WallLine& line);
+                                    const WallLine& line, bool by_normals = false);
 
 /// The points that agree with the line through the fuller half of the support: walls of nearly the
 /// same direction further on turn a line by their long lever.
