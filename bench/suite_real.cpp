@@ -23,8 +23,8 @@ constexpr const char* kRealText = R"(## Real clouds
 No truth is known. Upright points are those of planar surroundings (85 %% of the cloud, stage 2) whose normals lie within 17 degrees of
 level: of the building, but also of its neighbours, of trees and cars. The deviation is that of the points about their walls,
 relief included. Explained: upright points within 3 deviations of the model. Of the building: the same of the points classed as wall
-(see "Classes of points" in method.md), that is without surfaces that lean by more than 8 degrees and without small groups that a gap
-separates from the rest; no model takes part in that. Supported: area of the model's walls with upright points within 3 deviations;
+(see "Classes of points" in method.md), that is without surfaces that lean by more than 8 degrees, without what is no surface of the size of
+a wall and beside none, such as crowns of trees, and without small groups that a gap separates from the rest; no model takes part in that. Supported: area of the model's walls with upright points within 3 deviations;
 walls that trees hide or that nobody was behind have none. Not guessed: the same of the walls that the model does not mark
 as hypothetical.
 

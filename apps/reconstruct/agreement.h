@@ -11,7 +11,7 @@ namespace storey::reconstruct {
 struct Agreement {
   std::size_t upright = 0;   ///< planar points with |n.up| < 0.3
   double explained = 0.0;    ///< share of these
-  std::size_t building = 0;  ///< those of them that are neither of leaning surfaces nor apart
+  std::size_t building = 0;  ///< those of them that are not of leaning or small surfaces, nor apart
   double explained_of_building = 0.0;  ///< share of these
 };
 

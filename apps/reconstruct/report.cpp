@@ -79,8 +79,8 @@ Json describeParameters(const Options& o) {
 
 // How many points are of each class, and how planar they are on average.
 Json describeClasses(const stages::StageCloud& cloud) {
-  constexpr const char* kNames[detail::kNumPointClasses] = {"wall",   "level",      "ground",
-                                                            "sloped", "non_planar", "apart"};
+  constexpr const char* kNames[detail::kNumPointClasses] = {
+      "wall", "level", "ground", "sloped", "non_planar", "apart", "small"};
   std::size_t count[detail::kNumPointClasses] = {};
   double confidence[detail::kNumPointClasses] = {};
   const std::vector<int>& classes = cloud.groups(stages::Class);

@@ -24,17 +24,6 @@ constexpr double kMaxWallTilt = 0.61;  // sin(35 degrees) = 0.57; see GravitySli
 const char* const kWallsHint =
     "storey needs a cloud that shows the walls, from the ground or a drone";
 
-double noiseOfWalls(const Cloud& cloud, const pcl::Indices& walls, const CloudScale& scale) {
-  std::vector<Eigen::Vector3f> positions;
-  std::vector<Eigen::Vector3f> normals;
-  for (const pcl::index_t i : walls) {
-    const Point& p = cloud[static_cast<std::size_t>(i)];
-    positions.push_back(p.getVector3fMap());
-    normals.push_back(p.getNormalVector3fMap());
-  }
-  return storey::detail::estimateWallNoise(positions, normals, scale.noise, scale.extent);
-}
-
 /// \return the share of the normals that were turned
 double turnToSensor(Cloud& cloud, const Eigen::Vector3f& sensor) {
   std::size_t turned = 0;
@@ -121,16 +110,20 @@ std::string orientOutwards(StageCloud& cloud, const AttitudeOptions& options, un
 
 std::string measureScale(StageCloud& cloud, double given_noise, CloudScale& scale) {
   requireNormals(cloud);
-  pcl::Indices walls;
-  for (std::size_t i = 0; i < cloud.points->size(); ++i) {
-    if (std::abs((*cloud.points)[i].normal_z) < std::sin(kMaxWallTilt)) {
-      walls.push_back(static_cast<pcl::index_t>(i));
+  std::vector<Eigen::Vector3f> positions;
+  std::vector<Eigen::Vector3f> normals;
+  for (const Point& p : *cloud.points) {
+    if (std::abs(p.normal_z) < std::sin(kMaxWallTilt)) {
+      positions.push_back(p.getVector3fMap());
+      normals.push_back(p.getNormalVector3fMap());
     }
   }
-  if (walls.empty()) refuse(cloud, "none of its normals is level: no walls", kWallsHint);
-  scale = estimateCloudScale(Cloud(*cloud.points, walls));
+  if (positions.empty()) refuse(cloud, "none of its normals is level: no walls", kWallsHint);
+  scale = storey::detail::estimateCloudScale(positions, kDefaultScaleSeed);
   cloud.state.density = scale.density;
-  cloud.state.noise = given_noise > 0.0 ? given_noise : noiseOfWalls(*cloud.points, walls, scale);
+  cloud.state.noise = given_noise > 0.0 ? given_noise
+                                        : storey::detail::estimateWallNoise(
+                                              positions, normals, scale.noise, scale.extent);
   return format("noise %.3g (walls %.3g), spacing %.3g, %.3g points per unit of wall, extent %.3g",
                 scale.noise, cloud.state.noise, scale.spacing, scale.density, scale.extent);
 }

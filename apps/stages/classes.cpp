@@ -35,8 +35,8 @@ std::string classify(StageCloud& cloud) {
     groups[i] = static_cast<int>(classes[i]);
     ++count[static_cast<std::size_t>(classes[i])];
   }
-  return format("%zu points of walls, %zu level, %zu ground, %zu sloped, %zu apart", count[0],
-                count[1], count[2], count[3], count[5]);
+  return format("%zu points of walls, %zu level, %zu ground, %zu sloped, %zu apart, %zu small",
+                count[0], count[1], count[2], count[3], count[5], count[6]);
 }
 
 }  // namespace storey::stages

@@ -86,7 +86,8 @@ Drawing drawConfidence(const Reconstruction& r, View view) {
 
 Drawing drawClasses(const Reconstruction& r, View view) {
   // In the order of `PointClass`.
-  constexpr std::array kNames = {"wall", "level", "ground", "sloped", "not planar", "apart"};
+  constexpr std::array kNames = {"wall",       "level", "ground", "sloped",
+                                 "not planar", "apart", "small"};
   const StageCloud cloud = r.readLabels("02_classes.pcd", kNames.size(), "class");
   Drawing drawing;
   drawing.title = "What the points are of";

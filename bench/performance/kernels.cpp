@@ -64,22 +64,25 @@ void neighborSearch(benchmark::State& state) {
   const detail::NeighborSearch search(distinct.cloud);
   const std::vector<char> wanted(distinct.cloud->size(), 1);
   for (auto _ : state) {
-    search.forEach(kNeighbors, wanted, 1,
-                   [](const detail::Neighborhood& found) { benchmark::DoNotOptimize(found.ids); });
+    search.forEachMoments(kNeighbors, wanted, 1, [](const detail::MomentBatch& batch) {
+      benchmark::DoNotOptimize(batch.ids);
+    });
   }
   count(state, wanted.size(), "points");
 }
 
 void planarConfidence(benchmark::State& state) {
   const detail::DistinctPositions distinct = detail::findDistinctPositions(positions());
-  std::vector<detail::Moments> moments;
+  std::vector<detail::MomentBatch> batches;
   detail::NeighborSearch(distinct.cloud)
-      .forEach(kNeighbors, std::vector<char>(distinct.cloud->size(), 1), 1,
-               [&](const detail::Neighborhood& found) { moments.push_back(found.moments()); });
+      .forEachMoments(kNeighbors, std::vector<char>(distinct.cloud->size(), 1), 1,
+                      [&](const detail::MomentBatch& batch) { batches.push_back(batch); });
   for (auto _ : state) {
-    for (const detail::Moments& m : moments) benchmark::DoNotOptimize(detail::planarConfidence(m));
+    for (const detail::MomentBatch& batch : batches) {
+      benchmark::DoNotOptimize(detail::planarConfidences(batch));
+    }
   }
-  count(state, moments.size(), "neighbourhoods");
+  count(state, distinct.cloud->size(), "neighbourhoods");
 }
 
 // A grid of four neighbours, its terminals and edges at random.

@@ -21,13 +21,13 @@ int derivedNeighbors(const std::vector<Eigen::Vector3f>& positions) {
   return static_cast<int>(std::lround(std::clamp<double>(k, kFewestNeighbors, kMostNeighbors)));
 }
 
-PcaNormal fitNormal(const Moments& moments) {
-  const Eigen::Vector3d mean =
-      Eigen::Map<const Eigen::Vector3d>(moments.sum.data()) / moments.count;
-  const auto& m = moments.products;
+PcaNormal fitNormal(const MomentBatch& batch, std::size_t lane) {
+  const auto moment = [&](std::size_t which) { return batch.moments[which][lane]; };
+  const Eigen::Vector3d sum(moment(0), moment(1), moment(2));
   Eigen::Matrix3d covariance;
-  covariance << m[0], m[1], m[2], m[1], m[3], m[4], m[2], m[4], m[5];
-  covariance -= moments.count * mean * mean.transpose();
+  covariance << moment(3), moment(4), moment(5), moment(4), moment(6), moment(7), moment(5),
+      moment(7), moment(8);
+  covariance -= sum * sum.transpose() / static_cast<double>(batch.count);
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(covariance);
   const Eigen::Vector3d& l = solver.eigenvalues();  // ascending
@@ -44,7 +44,7 @@ PcaNormal fitNormal(const Moments& moments) {
 std::vector<PcaNormal> estimatePcaNormals(const std::vector<Eigen::Vector3f>& positions, int& k,
                                           unsigned int num_threads) {
   k = k > 0 ? k : derivedNeighbors(positions);
-  const DistinctPositions distinct = findDistinctPositions(positions);
+  const DistinctPositions distinct = findDistinctPositions(positions, num_threads);
   std::vector<PcaNormal> result(positions.size());
   if (distinct.cloud->size() < 3) {
     return result;
@@ -52,8 +52,12 @@ std::vector<PcaNormal> estimatePcaNormals(const std::vector<Eigen::Vector3f>& po
   std::vector<PcaNormal> fitted(distinct.cloud->size());
   const std::vector<char> all(fitted.size(), 1);
   NeighborSearch(distinct.cloud)
-      .forEach(static_cast<std::size_t>(k), all, num_threads, [&](const Neighborhood& found) {
-        fitted[static_cast<std::size_t>(found.id)] = fitNormal(found.moments());
+      .forEachMoments(static_cast<std::size_t>(k), all, num_threads, [&](const MomentBatch& batch) {
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+          if (batch.ids[lane] >= 0) {
+            fitted[static_cast<std::size_t>(batch.ids[lane])] = fitNormal(batch, lane);
+          }
+        }
       });
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (distinct.id_of_input[i] >= 0) {

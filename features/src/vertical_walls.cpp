@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <unordered_map>
 
 namespace storey::detail {
 namespace {
@@ -37,7 +36,8 @@ struct ColumnMoments {
   double count = 0.0;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  Eigen::Vector3d products = Eigen::Vector3d::Zero();  // yz, xz, xy
 
   void add(const Eigen::Vector3d& point) {
     if (count == 0.0) {
@@ -46,8 +46,59 @@ struct ColumnMoments {
     const Eigen::Vector3d d = point - origin;
     count += 1.0;
     sum += d;
-    products += d * d.transpose();
+    squares += d.cwiseProduct(d);
+    products += Eigen::Vector3d(d.y() * d.z(), d.x() * d.z(), d.x() * d.y());
   }
+
+  Eigen::Matrix3d covariance() const {
+    Eigen::Matrix3d c;
+    c << squares.x(), products.z(), products.y(), products.z(), squares.y(), products.x(),
+        products.y(), products.x(), squares.z();
+    const Eigen::Vector3d mean = sum / count;
+    return c / count - mean * mean.transpose();
+  }
+};
+
+// Columns by the number of their cell, in the order in which they were first met: an open table.
+class Columns {
+ public:
+  ColumnMoments& of(std::uint64_t cell) {
+    if (2 * (columns_.size() + 1) > slots_.size()) {
+      grow();
+    }
+    std::size_t& column = slotOf(cell);
+    if (column == kNone) {
+      column = columns_.size();
+      columns_.emplace_back();
+      cells_.push_back(cell);
+    }
+    return columns_[column];
+  }
+
+  const std::vector<ColumnMoments>& all() const { return columns_; }
+
+ private:
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  std::size_t& slotOf(std::uint64_t cell) {
+    std::uint64_t slot = cell * 0x9e3779b97f4a7c15u;  // Fibonacci hashing
+    for (slot = (slot ^ slot >> 32) & (slots_.size() - 1);
+         slots_[slot] != kNone && cells_[slots_[slot]] != cell;
+         slot = (slot + 1) & (slots_.size() - 1)) {
+    }
+    return slots_[slot];
+  }
+
+  void grow() {
+    slots_.assign(std::max<std::size_t>(1024, 4 * slots_.size()), kNone);
+    for (std::size_t column = 0; column < cells_.size(); ++column) {
+      slotOf(cells_[column]) = column;
+    }
+  }
+
+  std::vector<std::size_t> slots_;
+  std::vector<std::uint64_t> cells_;
+  std::vector<ColumnMoments> columns_;
 };
 
 double quantile(std::vector<double> values, double share) {
@@ -58,26 +109,22 @@ double quantile(std::vector<double> values, double share) {
 }
 
 // The columns that wall points stand in, by the first of their points.
-std::vector<ColumnMoments> momentsOfColumns(const Vectors3d& positions, const Vectors3d& normals,
-                                            const Eigen::Vector3d& up, double cell) {
+Columns columnsOf(const Vectors3d& positions, const Vectors3d& normals, const Eigen::Vector3d& up,
+                  double cell) {
   Eigen::Matrix3d to_local;
   to_local << tangentFrame(up).transpose(), up.transpose();
-  std::unordered_map<std::uint64_t, std::size_t> column_of_cell;
-  std::vector<ColumnMoments> columns;
+  constexpr double kMiddle = 2147483648.0;  // of the numbers of cells
+  const double cells_a_length = 1.0 / cell;
+  Columns columns;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (std::abs(normals[i].dot(up)) >= kWallGate) {
       continue;
     }
     const Eigen::Vector3d point = to_local * positions[i];
-    const Eigen::Array2d c = (point.head<2>() / cell).array().floor();
-    if (c.abs().maxCoeff() < 1e9) {
-      const auto x = static_cast<std::uint64_t>(static_cast<std::int64_t>(c.x()) + (1LL << 31));
-      const auto y = static_cast<std::uint64_t>(static_cast<std::int64_t>(c.y()) + (1LL << 31));
-      const auto [place, is_new] = column_of_cell.try_emplace(x << 32 | y, columns.size());
-      if (is_new) {
-        columns.emplace_back();
-      }
-      columns[place->second].add(point);
+    const double x = point.x() * cells_a_length + kMiddle;
+    const double y = point.y() * cells_a_length + kMiddle;
+    if (x >= 0.0 && y >= 0.0 && std::max(x, y) < 2.0 * kMiddle) {
+      columns.of(static_cast<std::uint64_t>(x) << 32 | static_cast<std::uint64_t>(y)).add(point);
     }
   }
   return columns;
@@ -86,8 +133,7 @@ std::vector<ColumnMoments> momentsOfColumns(const Vectors3d& positions, const Ve
 // Total least squares plane of the points of a column; false if they are no upright plane.
 bool fitColumn(const ColumnMoments& moments, Column& column) {
   const double n = moments.count;
-  const Eigen::Vector3d mean = moments.sum / n;
-  const Eigen::Matrix3d covariance = moments.products / n - mean * mean.transpose();
+  const Eigen::Matrix3d covariance = moments.covariance();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   const Eigen::Vector3d normal = solver.eigenvectors().col(0);
   const double across = std::max(solver.eigenvalues()[0], 0.0);
@@ -105,7 +151,8 @@ bool fitColumn(const ColumnMoments& moments, Column& column) {
 std::vector<Column> fitColumns(const Vectors3d& positions, const Vectors3d& normals,
                                const Eigen::Vector3d& up, double cell) {
   std::vector<Column> columns;
-  for (const ColumnMoments& moments : momentsOfColumns(positions, normals, up, cell)) {
+  const Columns found = columnsOf(positions, normals, up, cell);
+  for (const ColumnMoments& moments : found.all()) {
     Column column;
     if (moments.count >= kFewestPoints && fitColumn(moments, column)) {
       columns.push_back(column);

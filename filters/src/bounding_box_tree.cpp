@@ -18,11 +18,11 @@ Box emptyBox() {
 
 BoundingBoxTree::BoundingBoxTree(const pcl::PointCloud<pcl::PointXYZ>& positions) {
   const std::size_t n = positions.size();
-  const std::size_t num_leaves = (n + kFanOut - 1) / kFanOut;
+  const std::size_t num_leaves = (n + kLeaf - 1) / kLeaf;
   levels_.push_back(emptySiblings(num_leaves));
   for (std::size_t leaf = 0; leaf < num_leaves; ++leaf) {
     Box box = emptyBox();
-    for (std::size_t i = leaf * kFanOut; i < std::min(n, (leaf + 1) * kFanOut); ++i) {
+    for (std::size_t i = leaf * kLeaf; i < std::min(n, (leaf + 1) * kLeaf); ++i) {
       box.low = box.low.min(positions[i].getArray3fMap());
       box.high = box.high.max(positions[i].getArray3fMap());
     }

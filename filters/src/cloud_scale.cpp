@@ -76,12 +76,17 @@ double varianceOfCore(std::vector<double>& deviations) {
 
 Sample describe(const Neighborhood& found, const std::vector<std::uint32_t>& multiplicity) {
   const auto k = static_cast<double>(found.count);
-  const Moments moments = found.moments();  // about the first
-  const Eigen::Vector3d origin(found.x[0], found.y[0], found.z[0]);
-  const Eigen::Vector3d mean = Eigen::Map<const Eigen::Vector3d>(moments.sum.data()) / k;
-  const auto& m = moments.products;
-  Eigen::Matrix3d covariance;
-  covariance << m[0], m[1], m[2], m[1], m[3], m[4], m[2], m[4], m[5];
+  const auto at = [&found](std::size_t i) -> Eigen::Vector3d {
+    return Eigen::Vector3f(found.x[i], found.y[i], found.z[i]).cast<double>();
+  };
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < found.count; ++i) {
+    const Eigen::Vector3d d = at(i) - at(0);
+    mean += d;
+    covariance += d * d.transpose();
+  }
+  mean /= k;
   covariance = covariance / k - mean * mean.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
   const Eigen::Vector3d l = solver.eigenvalues().cwiseMax(0.0);
@@ -92,8 +97,7 @@ Sample describe(const Neighborhood& found, const std::vector<std::uint32_t>& mul
   const Eigen::Vector3d normal = solver.eigenvectors().col(0);
   std::vector<double> residuals;
   for (std::size_t i = 0; i < found.count; ++i) {
-    const Eigen::Vector3d d = Eigen::Vector3d(found.x[i], found.y[i], found.z[i]) - origin - mean;
-    residuals.push_back(std::abs(normal.dot(d)));
+    residuals.push_back(std::abs(normal.dot(at(i) - at(0) - mean)));
     result.points += multiplicity[static_cast<std::size_t>(found.ids[i])];
   }
   const double variance = varianceOfCore(residuals) * k / (k - 3.0);

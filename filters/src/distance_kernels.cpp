@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/filters/detail/distance_kernels.h>
-
-// Only here, where neither PCL nor Eigen is included: their types change with the instruction set.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__linux__)
-#define STOREY_EACH_INSTRUCTION_SET __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define STOREY_EACH_INSTRUCTION_SET
-#endif
+#include <storey/filters/detail/instruction_sets.h>
 
 namespace storey::detail {
 namespace {
 
-constexpr std::size_t kDoubles = 8;
+constexpr std::size_t kHalf = kLanes / 2;
+constexpr int kCountings = 16;
+constexpr float kWider = 1.2f;
+constexpr float kInfinity = __builtin_inff();
 
 // As many lanes on every machine, in one register or several: so sums have one order.
 typedef float Floats __attribute__((vector_size(kLanes * sizeof(float)), aligned(4), may_alias));
 typedef std::int32_t Ints __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
-typedef double Doubles __attribute__((vector_size(kDoubles * sizeof(double))));
-typedef float HalfFloats
-    __attribute__((vector_size(kDoubles * sizeof(float)), aligned(4), may_alias));
-
+typedef float Halves __attribute__((vector_size(kHalf * sizeof(float)), aligned(4), may_alias));
+typedef std::int32_t Order __attribute__((vector_size(kHalf * sizeof(std::int32_t))));
 typedef std::uint32_t Places __attribute__((vector_size(32), aligned(4), may_alias));
 
 // For every byte the places of its bits that are set, and how many they are.
@@ -39,8 +34,19 @@ struct SetBits {
 };
 constexpr SetBits kSetBits;
 
+#define STOREY_INLINE inline __attribute__((always_inline))
+
+// Vectors are passed by reference: by value, the instruction set would change how.
+STOREY_INLINE const Floats& load(const float* values) {
+  return *reinterpret_cast<const Floats*>(values);
+}
+
+STOREY_INLINE void store(const Floats& values, float* to) {
+  *reinterpret_cast<Floats*>(to) = values;
+}
+
 // Lane i of a comparison as bit i.
-inline __attribute__((always_inline)) std::uint32_t bitsOf(const Ints& truth) {
+STOREY_INLINE std::uint32_t bitsOf(const Ints& truth) {
   Ints bits =
       truth & Ints{1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
   bits |= __builtin_shuffle(bits, Ints{8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7});
@@ -49,41 +55,25 @@ inline __attribute__((always_inline)) std::uint32_t bitsOf(const Ints& truth) {
   return static_cast<std::uint32_t>(bits[0] | bits[1]);
 }
 
-}  // namespace
-
-STOREY_EACH_INSTRUCTION_SET
-void squaredDistances(const float* x, const float* y, const float* z, std::size_t n, const float* q,
-                      float* squared) {
-  for (std::size_t i = 0; i < n; i += kLanes) {
-    const Floats dx = *reinterpret_cast<const Floats*>(x + i) - q[0];
-    const Floats dy = *reinterpret_cast<const Floats*>(y + i) - q[1];
-    const Floats dz = *reinterpret_cast<const Floats*>(z + i) - q[2];
-    *reinterpret_cast<Floats*>(squared + i) = dx * dx + dy * dy + dz * dz;
+// Appends first + i for every lane i that is true.
+STOREY_INLINE std::size_t appendPlaces(const Ints& truth, std::size_t first, std::uint32_t* places,
+                                       std::size_t count) {
+  const std::uint32_t bits = bitsOf(truth);
+  for (std::uint32_t half = 0; half < 2; ++half) {
+    // All eight are stored and those in excess overwritten: there is no branch to guess.
+    const std::uint32_t byte = bits >> (8 * half) & 0xff;
+    *reinterpret_cast<Places*>(places + count) =
+        *reinterpret_cast<const Places*>(kSetBits.places[byte].data()) +
+        (static_cast<std::uint32_t>(first) + 8 * half);
+    count += kSetBits.counts[byte];
   }
+  return count;
 }
 
-STOREY_EACH_INSTRUCTION_SET
-void squaredDistancesToBox(const float* x, const float* y, const float* z, std::size_t n,
-                           const float* low, const float* high, float* squared) {
-  const float* coordinates[3] = {x, y, z};
-  for (std::size_t i = 0; i < n; i += kLanes) {
-    Floats sum = {};
-    for (int axis = 0; axis < 3; ++axis) {
-      const Floats c = *reinterpret_cast<const Floats*>(coordinates[axis] + i);
-      const Floats before = low[axis] - c;
-      const Floats behind = c - high[axis];
-      const Floats outside = before > 0.0f ? before : behind > 0.0f ? behind : Floats{};
-      sum += outside * outside;
-    }
-    *reinterpret_cast<Floats*>(squared + i) = sum;
-  }
-}
-
-STOREY_EACH_INSTRUCTION_SET
-std::size_t countWithin(const float* values, std::size_t n, float limit) {
+STOREY_INLINE std::size_t countWithin(const float* values, std::size_t n, float limit) {
   Ints counts = {};
   for (std::size_t i = 0; i < n; i += kLanes) {
-    counts -= *reinterpret_cast<const Floats*>(values + i) <= limit;  // true is -1
+    counts -= load(values + i) <= limit;  // true is -1
   }
   counts += __builtin_shuffle(counts, Ints{8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7});
   counts += __builtin_shuffle(counts, Ints{4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11});
@@ -91,18 +81,60 @@ std::size_t countWithin(const float* values, std::size_t n, float limit) {
   return static_cast<std::size_t>(counts[0] + counts[1]);
 }
 
+// Squared distances to a box, 0 inside.
+STOREY_INLINE void distancesToBox(const Floats& x, const Floats& y, const Floats& z,
+                                  const Corners& box, Floats& squared) {
+  const Floats* const coordinates[3] = {&x, &y, &z};
+  squared = Floats{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Floats before = box.low[axis] - *coordinates[axis];
+    const Floats behind = *coordinates[axis] - box.high[axis];
+    const Floats nearest = before > behind ? before : behind;
+    const Floats outside = nearest > 0.0f ? nearest : Floats{};
+    squared += outside * outside;
+  }
+}
+
+}  // namespace
+
 STOREY_EACH_INSTRUCTION_SET
-std::size_t placesWithin(const float* values, std::size_t n, float limit, std::uint32_t* places) {
+std::size_t boxesWithin(const std::array<const float*, 6>& sides, std::size_t n, const Corners& box,
+                        float squared_reach, std::uint32_t* places) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < n; i += kLanes) {
-    const Ints within = *reinterpret_cast<const Floats*>(values + i) <= limit;
-    const std::uint32_t bits = bitsOf(within);
-    for (std::uint32_t half = 0; half < 2; ++half) {
-      // All eight are stored and those in excess overwritten: there is no branch to guess.
+    Floats sum = {};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Floats before = load(sides[axis] + i) - box.high[axis];
+      const Floats behind = box.low[axis] - load(sides[axis + 3] + i);
+      const Floats nearest = before > behind ? before : behind;
+      const Floats outside = nearest > 0.0f ? nearest : Floats{};
+      sum += outside * outside;
+    }
+    count = appendPlaces(sum <= squared_reach, i, places, count);
+  }
+  return count;
+}
+
+STOREY_EACH_INSTRUCTION_SET
+std::size_t positionsWithin(const Coordinates& positions, const std::uint32_t* blocks,
+                            std::size_t num_blocks, const Corners& box, float squared_reach,
+                            const std::array<float*, 3>& chosen) {
+  const float* const coordinates[3] = {positions.x, positions.y, positions.z};
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < num_blocks; ++b) {
+    const std::size_t first = blocks[b] * kLanes;
+    Floats squared;
+    distancesToBox(load(positions.x + first), load(positions.y + first), load(positions.z + first),
+                   box, squared);
+    const std::uint32_t bits = bitsOf(squared <= squared_reach);
+    for (std::size_t half = 0; half < 2; ++half) {
       const std::uint32_t byte = bits >> (8 * half) & 0xff;
-      *reinterpret_cast<Places*>(places + count) =
-          *reinterpret_cast<const Places*>(kSetBits.places[byte].data()) +
-          (static_cast<std::uint32_t>(i) + 8 * half);
+      const Order order = *reinterpret_cast<const Order*>(kSetBits.places[byte].data());
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Halves all =
+            *reinterpret_cast<const Halves*>(coordinates[axis] + first + half * kHalf);
+        *reinterpret_cast<Halves*>(chosen[axis] + count) = __builtin_shuffle(all, order);
+      }
       count += kSetBits.counts[byte];
     }
   }
@@ -110,43 +142,54 @@ std::size_t placesWithin(const float* values, std::size_t n, float limit, std::u
 }
 
 STOREY_EACH_INSTRUCTION_SET
-Moments momentsAbout(const float* x, const float* y, const float* z, std::size_t n, const float* q,
-                     std::size_t count) {
-  Doubles sums[9] = {};
-  for (std::size_t i = 0; i < n; i += kDoubles) {
-    const Doubles dx =
-        __builtin_convertvector(*reinterpret_cast<const HalfFloats*>(x + i), Doubles) -
-        static_cast<double>(q[0]);
-    const Doubles dy =
-        __builtin_convertvector(*reinterpret_cast<const HalfFloats*>(y + i), Doubles) -
-        static_cast<double>(q[1]);
-    const Doubles dz =
-        __builtin_convertvector(*reinterpret_cast<const HalfFloats*>(z + i), Doubles) -
-        static_cast<double>(q[2]);
-    sums[0] += dx;
-    sums[1] += dy;
-    sums[2] += dz;
-    sums[3] += dx * dx;
-    sums[4] += dx * dy;
-    sums[5] += dx * dz;
-    sums[6] += dy * dy;
-    sums[7] += dy * dz;
-    sums[8] += dz * dz;
+void squaredDistances(const Coordinates& positions, const std::uint32_t* blocks,
+                      std::size_t num_blocks, const float* q, float* squared) {
+  for (std::size_t b = 0; b < num_blocks; ++b) {
+    const std::size_t first = blocks[b] * kLanes;
+    const Floats dx = load(positions.x + first) - q[0];
+    const Floats dy = load(positions.y + first) - q[1];
+    const Floats dz = load(positions.z + first) - q[2];
+    store(dx * dx + dy * dy + dz * dz, squared + b * kLanes);
   }
-  double totals[9];
-  for (std::size_t s = 0; s < 9; ++s) {
-    const Doubles& v = sums[s];
-    totals[s] = ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+
+STOREY_EACH_INSTRUCTION_SET
+float limitOf(const float* values, std::size_t n, std::size_t k, float guess) {
+  float low = 0.0f;
+  float high = kInfinity;
+  float below = 0.0f;  // how many are within `low`, and within `high`
+  float above = 0.0f;
+  const auto wanted = static_cast<float>(k);
+  float limit = guess;
+  for (int round = 0; round < kCountings; ++round) {
+    const std::size_t count = countWithin(values, n, limit);
+    if (count == k) {
+      return limit;
+    }
+    if (count < k) {
+      low = limit;
+      below = static_cast<float>(count);
+    } else {
+      high = limit;
+      above = static_cast<float>(count);
+    }
+    // On a surface the number within a distance grows like its square, evenly between two limits.
+    limit = high < kInfinity ? low + (high - low) * (wanted + 0.5f - below) / (above + 1.0f - below)
+                             : kWider * low * wanted / (below > 0.5f ? below : 0.5f);
+    if (!(limit > low && limit < high)) {
+      limit = 0.5f * (low + high);
+    }
   }
-  Moments moments;
-  moments.count = static_cast<double>(count);
-  for (std::size_t i = 0; i < 3; ++i) {
-    moments.sum[i] = totals[i];
+  return __builtin_nanf("");
+}
+
+STOREY_EACH_INSTRUCTION_SET
+std::size_t placesWithin(const float* values, std::size_t n, float limit, std::uint32_t* places) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < n; i += kLanes) {
+    count = appendPlaces(load(values + i) <= limit, i, places, count);
   }
-  for (std::size_t i = 0; i < 6; ++i) {
-    moments.products[i] = totals[3 + i];
-  }
-  return moments;
+  return count;
 }
 
 }  // namespace storey::detail

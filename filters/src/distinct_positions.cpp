@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/chunks.h>
 #include <storey/filters/detail/distinct_positions.h>
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace storey::detail {
 namespace {
@@ -13,8 +15,8 @@ constexpr std::size_t kSlices = 1024;    // of an axis, to see how long it is wi
 constexpr std::size_t kFewShare = 1000;  // a thousandth of the positions at either end
 constexpr std::size_t kMuchLonger = 64;
 constexpr std::size_t kPrefetched = 32;
-constexpr int kMostBucketBits = 24;
-constexpr std::size_t kPerBucket = 4;  // leading bits for so many positions in a bucket
+constexpr int kDigitBits = 11;    // as many places as the cache has lines for
+constexpr int kDigitsSorted = 3;  // leading ones: 11 bits for each axis
 
 // Two zero bits after each of the lower 21 bits.
 std::uint64_t spreadBits(std::uint64_t v) {
@@ -105,25 +107,43 @@ std::vector<Entry> codesOf(const std::vector<Eigen::Vector3f>& positions, const 
   return entries;
 }
 
-// By code, within a code by position: first into buckets of the leading bits, then each by itself.
-std::vector<Entry> mortonOrder(const std::vector<Eigen::Vector3f>& positions, const Cube& cube) {
-  const std::vector<Entry> entries = codesOf(positions, cube);
-  int bits = 1;
-  while (bits < kMostBucketBits && (std::size_t{1} << bits) < entries.size() / kPerBucket) {
-    ++bits;
+// Stable, by a digit of the code: each chunk has its own places in the result.
+void sortByDigit(std::vector<Entry>& entries, int shift, unsigned int threads,
+                 std::vector<Entry>& sorted) {
+  constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+  const auto digitOf = [shift](const Entry& e) {
+    return static_cast<std::size_t>(e.code >> shift) & (kDigits - 1);
+  };
+  std::vector<std::vector<std::uint32_t>> places(Chunks(entries.size()).count());
+  forEachChunk(entries.size(), threads, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    places[c].assign(kDigits, 0);
+    for (std::size_t i = begin; i < end; ++i) {
+      ++places[c][digitOf(entries[i])];
+    }
+  });
+  std::uint32_t next = 0;
+  for (std::size_t digit = 0; digit < kDigits; ++digit) {
+    for (std::vector<std::uint32_t>& of_chunk : places) {
+      next += std::exchange(of_chunk[digit], next);
+    }
   }
-  const int shift = 3 * kMortonBits - bits;
-  std::vector<std::uint32_t> begins((std::size_t{1} << bits) + 1, 0);
-  for (const Entry& e : entries) {
-    ++begins[(e.code >> shift) + 1];
-  }
-  for (std::size_t b = 1; b < begins.size(); ++b) {
-    begins[b] += begins[b - 1];
-  }
-  std::vector<Entry> sorted(entries.size());
-  std::vector<std::uint32_t> ends(begins.begin(), begins.end() - 1);
-  for (const Entry& e : entries) {
-    sorted[ends[e.code >> shift]++] = e;
+  sorted.resize(entries.size());
+  forEachChunk(entries.size(), threads, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      sorted[places[c][digitOf(entries[i])]++] = entries[i];
+    }
+  });
+  entries.swap(sorted);
+}
+
+// By code, within a code by position: first by the leading digits, then what shares these.
+std::vector<Entry> mortonOrder(const std::vector<Eigen::Vector3f>& positions, const Cube& cube,
+                               unsigned int threads) {
+  std::vector<Entry> entries = codesOf(positions, cube);
+  std::vector<Entry> sorted;
+  constexpr int kRest = 3 * kMortonBits - kDigitsSorted * kDigitBits;
+  for (int digit = 0; digit < kDigitsSorted; ++digit) {
+    sortByDigit(entries, kRest + digit * kDigitBits, threads, sorted);
   }
   const auto before = [&positions](const Entry& a, const Entry& b) {
     if (a.code != b.code) {
@@ -134,10 +154,18 @@ std::vector<Entry> mortonOrder(const std::vector<Eigen::Vector3f>& positions, co
     return std::make_tuple(p.x(), p.y(), p.z(), a.input) <
            std::make_tuple(q.x(), q.y(), q.z(), b.input);
   };
-  for (std::size_t b = 0; b + 1 < begins.size(); ++b) {
-    std::sort(sorted.begin() + begins[b], sorted.begin() + begins[b + 1], before);
+  for (std::size_t begin = 0; begin < entries.size();) {
+    std::size_t end = begin + 1;
+    while (end < entries.size() && entries[end].code >> kRest == entries[begin].code >> kRest) {
+      ++end;
+    }
+    if (end - begin > 1) {
+      std::sort(entries.begin() + static_cast<std::ptrdiff_t>(begin),
+                entries.begin() + static_cast<std::ptrdiff_t>(end), before);
+    }
+    begin = end;
   }
-  return sorted;
+  return entries;
 }
 
 DistinctPositions distinctInOrder(const std::vector<Eigen::Vector3f>& positions,
@@ -174,14 +202,16 @@ bool areCrowded(const DistinctPositions& distinct, const std::vector<Entry>& ord
 
 }  // namespace
 
-DistinctPositions findDistinctPositions(const std::vector<Eigen::Vector3f>& positions) {
+DistinctPositions findDistinctPositions(const std::vector<Eigen::Vector3f>& positions,
+                                        unsigned int threads) {
   const Cube cube = cubeAround(positions);
-  const std::vector<Entry> order = mortonOrder(positions, cube);
+  const std::vector<Entry> order = mortonOrder(positions, cube, threads);
   const DistinctPositions distinct = distinctInOrder(positions, order);
   if (!areCrowded(distinct, order)) {
     return distinct;
   }
-  return distinctInOrder(positions, mortonOrder(positions, withoutOutliers(*distinct.cloud, cube)));
+  return distinctInOrder(positions,
+                         mortonOrder(positions, withoutOutliers(*distinct.cloud, cube), threads));
 }
 
 }  // namespace storey::detail

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/filters/detail/neighbor_search.h>
-#include <storey/filters/detail/threads.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,94 +9,40 @@
 namespace storey::detail {
 namespace {
 
-constexpr std::size_t kFanOut = BoundingBoxTree::kFanOut;
-constexpr std::size_t kGroup = 64;         // positions that share their candidates, at most
-constexpr float kGroupSide = 2.5f;         // of a group's box, at most: reaches
-constexpr std::ptrdiff_t kRange = 2048;    // positions in a task of a thread
-constexpr float kReachMargin = 1.6f;       // of the squared reach of the group before
-constexpr std::size_t kLeavesForEach = 4;  // neighbour: more candidates than that are too many
+constexpr std::size_t kLeavesForEach = 2;  // neighbour: more are too many
 constexpr std::size_t kLeavesForAny = 16;
 constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 constexpr float kRounding = 1e-5f;  // of a squared distance in floats, with room to spare
-constexpr int kCountings = 16;
-constexpr float kWider = 1.2f;
+constexpr std::size_t kHalfLanes = kLanes / 2;
+constexpr float kFarthest = std::numeric_limits<float>::max();  // padding lies farther
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-std::size_t mostLeaves(std::size_t k) { return kLeavesForAny + kLeavesForEach * k; }
 
 std::size_t paddedSize(std::size_t n) { return (n + kLanes - 1) / kLanes * kLanes; }
 
-// A limit that exactly k of the values do not exceed, by counting; NaN if there is none to be
-// found, because of ties. `guess` > 0.
-float limitOf(const float* values, std::size_t n, std::size_t k, float guess) {
-  float low = 0.0f;
-  float high = kInfinity;
-  float below = 0.0f;  // how many are within `low`, and within `high`
-  float above = 0.0f;
-  const auto wanted = static_cast<float>(k);
-  float limit = guess;
-  for (int round = 0; round < kCountings; ++round) {
-    const std::size_t count = countWithin(values, n, limit);
-    if (count == k) {
-      return limit;
-    }
-    if (count < k) {
-      low = limit;
-      below = static_cast<float>(count);
-    } else {
-      high = limit;
-      above = static_cast<float>(count);
-    }
-    // On a surface the number within a distance grows like its square, evenly between two limits.
-    limit = high < kInfinity ? low + (high - low) * (wanted + 0.5f - below) / (above + 1.0f - below)
-                             : kWider * low * wanted / std::max(below, 0.5f);
-    if (!(limit > low && limit < high)) {
-      limit = 0.5f * (low + high);
-    }
+// Room for so many, which is never taken back.
+template <typename T>
+void growTo(std::size_t size, std::vector<T>& values) {
+  if (values.size() < size) {
+    values.resize(size);
   }
-  return std::numeric_limits<float>::quiet_NaN();
 }
 
-// The places of the k least values where several equal the k-th: of those, the first ones.
-float placesOfLeast(std::size_t k, std::size_t n, NeighborSearch::Workspace& workspace) {
-  const std::vector<float>& squared = workspace.squared;
+// Leaves the k least of the distances where several equal the k-th, of those the first ones, and
+// makes the others infinite. The k-th is returned.
+float keepLeast(std::size_t k, std::size_t n, NeighborSearch::Workspace& workspace) {
+  std::vector<float>& squared = workspace.squared;
   workspace.sorted.assign(squared.begin(), squared.begin() + static_cast<std::ptrdiff_t>(n));
   const auto last = workspace.sorted.begin() + static_cast<std::ptrdiff_t>(k) - 1;
   std::nth_element(workspace.sorted.begin(), last, workspace.sorted.end());
   const float limit = *last;
   auto ties = static_cast<std::ptrdiff_t>(k) -
               std::count_if(workspace.sorted.begin(), last, [=](float d) { return d < limit; });
-  std::size_t count = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    if (squared[i] < limit || (squared[i] == limit && ties-- > 0)) {
-      workspace.places[count++] = static_cast<std::uint32_t>(i);
+    if (squared[i] == limit && ties-- <= 0) {
+      squared[i] = kInfinity;
     }
   }
   return limit;
-}
-
-// The candidates at some places. Padded with infinity, or with the first of them.
-enum class Padding { Infinity, First };
-void choose(const NeighborSearch::Candidates& from, std::size_t count,
-            const std::vector<std::uint32_t>& places, Padding padding,
-            NeighborSearch::Candidates& chosen) {
-  chosen.resize(count);
-  const std::uint32_t* const place = places.data();
-  float* const x = chosen.x.data();
-  float* const y = chosen.y.data();
-  float* const z = chosen.z.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    x[i] = from.x[place[i]];
-    y[i] = from.y[place[i]];
-    z[i] = from.z[place[i]];
-    chosen.ids[i] = from.ids[place[i]];
-  }
-  const bool first = padding == Padding::First;
-  for (std::size_t i = count; i < chosen.padded(); ++i) {
-    x[i] = first ? x[0] : kInfinity;
-    y[i] = first ? y[0] : 0.0f;
-    z[i] = first ? z[0] : 0.0f;
-  }
 }
 
 }  // namespace
@@ -110,162 +55,23 @@ float Neighborhood::squaredRadius() const {
   return largest;
 }
 
-Moments Neighborhood::moments() const {
-  const std::array<float, 3> first{x[0], y[0], z[0]};
-  return momentsAbout(x, y, z, paddedSize(count), first.data(), count);
-}
-
-std::size_t NeighborSearch::Candidates::padded() const { return paddedSize(count); }
-
-void NeighborSearch::Candidates::resize(std::size_t size) {
-  count = size;
-  if (padded() > x.size()) {
-    x.resize(padded());
-    y.resize(padded());
-    z.resize(padded());
-    ids.resize(padded());
-  }
-}
-
 NeighborSearch::NeighborSearch(const Cloud::ConstPtr& positions)
-    : positions_(positions), tree_(*positions) {}
-
-Neighborhood NeighborSearch::nearest(pcl::index_t id, std::size_t k, Workspace& workspace) const {
-  return searchAlone(static_cast<std::size_t>(id), std::min(k, positions_->size()), workspace);
-}
-
-void NeighborSearch::forEach(std::size_t k, const std::vector<char>& wanted, unsigned int threads,
-                             const Visit& visit) const {
-  const auto n = static_cast<std::ptrdiff_t>(positions_->size());
-  k = std::min(k, positions_->size());
-#pragma omp parallel num_threads(threadsFor(threads))
-  {
-    Workspace workspace;
-    Group group;
-#pragma omp for schedule(dynamic, 1)
-    for (std::ptrdiff_t begin = 0; begin < n; begin += kRange) {
-      const auto end = static_cast<std::size_t>(std::min(n, begin + kRange));
-      for (auto id = static_cast<std::size_t>(begin); id < end;) {
-        id = nextGroup(id, end, wanted, workspace, group);
-        visitGroup(group, k, workspace, visit);
-      }
+    : size_(positions->size()), tree_(*positions) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    xyz_[axis].reserve(paddedSize(size_));
+    for (const pcl::PointXYZ& p : *positions) {
+      xyz_[axis].push_back(p.data[axis]);
     }
+    xyz_[axis].resize(paddedSize(size_), kInfinity);
   }
 }
 
-// Wanted positions that follow each other in a box not much larger than their neighbourhoods.
-// Larger ones would have too many candidates, and smaller ones too few positions to share them.
-std::size_t NeighborSearch::nextGroup(std::size_t id, std::size_t end,
-                                      const std::vector<char>& wanted, const Workspace& workspace,
-                                      Group& group) const {
-  const float side =
-      workspace.squared_reach > 0.0f ? kGroupSide * std::sqrt(workspace.squared_reach) : kInfinity;
-  const std::size_t most = workspace.squared_reach > 0.0f ? kGroup : kGroup / 4;
-  group.count = 0;
-  for (; id < end && group.count < most; ++id) {
-    if (wanted[id] == 0) {
-      continue;
-    }
-    Box box = boxOf(id, id + 1);
-    if (group.count > 0) {
-      box.low = box.low.min(group.box.low);
-      box.high = box.high.max(group.box.high);
-      if ((box.high - box.low).maxCoeff() > side) {
-        break;
-      }
-    }
-    group.box = box;
-    group.ids[group.count++] = static_cast<std::uint32_t>(id);
-  }
-  return id;
+Box NeighborSearch::boxOf(std::size_t id) const {
+  const Eigen::Array3f position(xyz_[0][id], xyz_[1][id], xyz_[2][id]);
+  return {position, position};
 }
 
-void NeighborSearch::visitGroup(Group& group, std::size_t k, Workspace& workspace,
-                                const Visit& visit) const {
-  if (group.count == 0) {
-    return;
-  }
-  if (!(workspace.squared_reach > 0.0f)) {
-    workspace.squared_reach = (group.box.high - group.box.low).square().sum();
-  }
-  if (!visitTogether(group, kReachMargin * workspace.squared_reach, k, workspace, visit)) {
-    divideGroup(group, k, workspace, visit);
-    return;
-  }
-  // Of those whose neighbours may lie further out it is known now how far at most.
-  const float usual = workspace.squared_reach;
-  if (group.count > 1) {
-    visitTogether(group, group.squared_reach * (1.0f + 4.0f * kRounding), k, workspace, visit);
-  }
-  for (std::size_t i = 0; i < group.count; ++i) {
-    workspace.squared_reach = group.squared_reach;
-    visit(searchAlone(group.ids[i], k, workspace));
-  }
-  workspace.squared_reach = usual;
-}
-
-// For where positions are much denser, or much sparser, than those before.
-void NeighborSearch::divideGroup(const Group& group, std::size_t k, Workspace& workspace,
-                                 const Visit& visit) const {
-  if (group.count == 1) {
-    visit(searchAlone(group.ids[0], k, workspace));
-    return;
-  }
-  Group half;
-  for (std::size_t i = 0; i < group.count; ++i) {
-    const Box box = boxOf(group.ids[i], group.ids[i] + 1);
-    half.box.low = half.count > 0 ? half.box.low.min(box.low) : box.low;
-    half.box.high = half.count > 0 ? half.box.high.max(box.high) : box.high;
-    half.ids[half.count++] = group.ids[i];
-    if (i + 1 == group.count / 2 || i + 1 == group.count) {
-      visitGroup(half, k, workspace, visit);
-      half.count = 0;
-    }
-  }
-}
-
-// Visits those of the group whose neighbours are proven to lie within the reach, and leaves the
-// others in it, with what they need. Does nothing and returns false if there are too many
-// candidates for that, or too few.
-bool NeighborSearch::visitTogether(Group& group, float squared_reach, std::size_t k,
-                                   Workspace& workspace, const Visit& visit) const {
-  if (!gather(group.box, std::sqrt(squared_reach), mostLeaves(k), workspace) ||
-      workspace.candidates.count < k) {
-    return false;
-  }
-  group.squared_reach = 0.0f;
-  float sum = 0.0f;
-  std::size_t num_left = 0;
-  const std::size_t count = group.count;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t id = group.ids[i];
-    const Neighborhood found = take(id, k, workspace);
-    sum += workspace.squared_reach;
-    if (workspace.squared_reach * (1.0f + kRounding) < squared_reach) {
-      visit(found);
-      continue;
-    }
-    const Box box = boxOf(id, id + 1);
-    group.box.low = num_left > 0 ? group.box.low.min(box.low) : box.low;
-    group.box.high = num_left > 0 ? group.box.high.max(box.high) : box.high;
-    group.squared_reach = std::max(group.squared_reach, workspace.squared_reach);
-    group.ids[num_left++] = id;
-  }
-  group.count = num_left;
-  workspace.squared_reach = sum / static_cast<float>(count);
-  return true;
-}
-
-Box NeighborSearch::boxOf(std::size_t begin, std::size_t end) const {
-  Box box{(*positions_)[begin].getArray3fMap(), (*positions_)[begin].getArray3fMap()};
-  for (std::size_t i = begin + 1; i < end; ++i) {
-    box.low = box.low.min((*positions_)[i].getArray3fMap());
-    box.high = box.high.max((*positions_)[i].getArray3fMap());
-  }
-  return box;
-}
-
-// Candidates: all positions of the leaves that meet the box widened by `reach`.
+// The leaves that meet the box widened by `reach`, and their boxes.
 bool NeighborSearch::gather(const Box& box, float reach, std::size_t most_leaves,
                             Workspace& workspace) const {
   Box wide;
@@ -276,91 +82,121 @@ bool NeighborSearch::gather(const Box& box, float reach, std::size_t most_leaves
   if (!tree_.leavesIn(wide, most_leaves, workspace.leaves)) {
     return false;
   }
-  fillFromLeaves(workspace);
-  Candidates& all = workspace.in_leaves;
-  workspace.squared.resize(std::max(workspace.squared.size(), all.padded()));
-  workspace.places.resize(std::max(workspace.places.size(), all.padded() + kLanes));
-  squaredDistancesToBox(all.x.data(), all.y.data(), all.z.data(), all.padded(), box.low.data(),
-                        box.high.data(), workspace.squared.data());
-  const float farthest = reach * reach * (1.0f + kRounding);
-  choose(all,
-         placesWithin(workspace.squared.data(), all.padded(), farthest, workspace.places.data()),
-         workspace.places, Padding::Infinity, workspace.candidates);
+  const std::size_t padded = paddedSize(workspace.leaves.size());
+  for (std::size_t side = 0; side < 6; ++side) {
+    std::vector<float>& sides = workspace.boxes[side];
+    sides.resize(padded);
+    for (std::size_t i = 0; i < workspace.leaves.size(); ++i) {
+      sides[i] = tree_.sideOf(workspace.leaves[i], side);
+    }
+    std::fill(sides.begin() + static_cast<std::ptrdiff_t>(workspace.leaves.size()), sides.end(),
+              kInfinity);
+  }
   return true;
 }
 
-void NeighborSearch::fillFromLeaves(Workspace& workspace) const {
-  Candidates& all = workspace.in_leaves;
-  all.resize(workspace.leaves.size() * kFanOut);
-  std::size_t place = 0;
-  for (const std::uint32_t leaf : workspace.leaves) {
-    const std::size_t first = leaf * kFanOut;
-    const std::size_t last = std::min(first + kFanOut, positions_->size());
-    for (std::size_t i = first; i < last; ++i, ++place) {
-      const pcl::PointXYZ& p = (*positions_)[i];
-      all.x[place] = p.x;
-      all.y[place] = p.y;
-      all.z[place] = p.z;
-      all.ids[place] = static_cast<pcl::index_t>(i);
-    }
+// The blocks that come within reach of the box, or all leaves if those hold too few positions.
+void NeighborSearch::chooseBlocks(const Box& box, float squared_reach, std::size_t k,
+                                  Workspace& workspace) const {
+  const std::vector<std::uint32_t>& leaves = workspace.leaves;
+  const std::array<std::vector<float>, 6>& boxes = workspace.boxes;
+  growTo(boxes[0].size() + kHalfLanes, workspace.places);
+  growTo(leaves.size(), workspace.blocks);
+  workspace.num_blocks = boxesWithin({boxes[0].data(), boxes[1].data(), boxes[2].data(),
+                                      boxes[3].data(), boxes[4].data(), boxes[5].data()},
+                                     boxes[0].size(), {box.low.data(), box.high.data()},
+                                     std::min(squared_reach, kFarthest), workspace.places.data());
+  for (std::size_t b = 0; b < workspace.num_blocks; ++b) {
+    workspace.blocks[b] = leaves[workspace.places[b]];
   }
-  all.count = place;
-  std::fill(all.x.begin() + static_cast<std::ptrdiff_t>(place),
-            all.x.begin() + static_cast<std::ptrdiff_t>(all.padded()), kInfinity);
+  if (sizeOf(workspace.blocks.data(), workspace.num_blocks) < k) {
+    workspace.num_blocks = leaves.size();
+    std::copy(leaves.begin(), leaves.end(), workspace.blocks.begin());
+  }
 }
 
-Neighborhood NeighborSearch::searchAlone(std::size_t id, std::size_t k,
-                                         Workspace& workspace) const {
-  const Box box = boxOf(id, id + 1);
+// Finds the blocks with the k nearest, and the squared distance within which exactly they lie.
+float NeighborSearch::searchAlone(std::size_t id, std::size_t k, Workspace& workspace) const {
+  const Box box = boxOf(id);
   float reach = std::sqrt(workspace.squared_reach) * (1.0f + kRounding);
   if (!(reach > 0.0f)) {
-    const std::size_t other = id > 0 ? id - 1 : std::min(id + 1, positions_->size() - 1);
-    reach = ((*positions_)[other].getVector3fMap() - (*positions_)[id].getVector3fMap()).norm();
+    const std::size_t other = id > 0 ? id - 1 : std::min(id + 1, size_ - 1);
+    reach = std::sqrt((boxOf(other).low - box.low).square().sum());
     reach = std::max(reach, std::numeric_limits<float>::min());
   }
   bool grown = false;
+  const std::size_t most_leaves = kLeavesForAny + kLeavesForEach * k;
   while (true) {
-    if (!gather(box, reach, grown ? kNoLimit : mostLeaves(k), workspace)) {
+    if (!gather(box, reach, grown ? kNoLimit : most_leaves, workspace)) {
       reach *= 0.5f;
-    } else if (workspace.candidates.count < k) {
+    } else if (sizeOf(workspace.leaves.data(), workspace.leaves.size()) < k) {
       reach *= 2.0f;
       grown = true;
     } else {
       break;
     }
   }
-  workspace.squared_reach = std::max(reach * reach, std::numeric_limits<float>::min());
-  const Neighborhood found = take(id, k, workspace);
+  const float limit = take(id, k, reach * reach, workspace);
   if (workspace.squared_reach * (1.0f + kRounding) < reach * reach) {
-    return found;
+    return limit;
   }
-  gather(box, std::sqrt(workspace.squared_reach) * (1.0f + kRounding), kNoLimit, workspace);
-  return take(id, k, workspace);
+  reach = std::sqrt(workspace.squared_reach) * (1.0f + kRounding);
+  gather(box, reach, kNoLimit, workspace);
+  return take(id, k, kInfinity, workspace);
 }
 
-// The k nearest of the candidates; `workspace.squared_reach` becomes the square of a distance
-// within which they lie.
-Neighborhood NeighborSearch::take(std::size_t id, std::size_t k, Workspace& workspace) const {
-  const pcl::PointXYZ& p = (*positions_)[id];
-  const Candidates& candidates = workspace.candidates;
-  squaredDistances(candidates.x.data(), candidates.y.data(), candidates.z.data(),
-                   candidates.padded(), p.data, workspace.squared.data());
-  float limit = limitOf(workspace.squared.data(), candidates.padded(), k, workspace.squared_reach);
+float NeighborSearch::take(std::size_t id, std::size_t k, float squared_reach,
+                           Workspace& workspace) const {
+  const Box box = boxOf(id);
+  chooseBlocks(box, squared_reach, k, workspace);
+  const std::size_t n = workspace.num_blocks * kLanes;
+  growTo(n, workspace.squared);
+  squaredDistances(coordinates(), workspace.blocks.data(), workspace.num_blocks, box.low.data(),
+                   workspace.squared.data());
+  float limit = limitOf(workspace.squared.data(), n, k,
+                        std::max(workspace.squared_reach, std::numeric_limits<float>::min()));
   if (std::isnan(limit)) {
-    limit = placesOfLeast(k, candidates.padded(), workspace);
-  } else {
-    placesWithin(workspace.squared.data(), candidates.padded(), limit, workspace.places.data());
+    limit = keepLeast(k, n, workspace);
   }
-  choose(candidates, k, workspace.places, Padding::First, workspace.nearest);
   workspace.squared_reach = std::max(limit, std::numeric_limits<float>::min());
-  const Candidates& nearest = workspace.nearest;
-  return {static_cast<pcl::index_t>(id),
-          {p.x, p.y, p.z},
+  return limit;
+}
+
+Neighborhood NeighborSearch::nearest(pcl::index_t id, std::size_t k, Workspace& workspace) const {
+  k = std::min(k, size_);
+  const float limit = searchAlone(static_cast<std::size_t>(id), k, workspace);
+  const std::size_t n = workspace.num_blocks * kLanes;
+  growTo(n + kHalfLanes, workspace.places);
+  growTo(k, workspace.ids);
+  placesWithin(workspace.squared.data(), n, limit, workspace.places.data());
+  for (std::vector<float>& coordinate : workspace.xyz) {
+    growTo(k, coordinate);
+  }
+  for (std::size_t i = 0; i < k; ++i) {
+    const std::uint32_t place = workspace.places[i];
+    const std::size_t neighbor = workspace.blocks[place / kLanes] * kLanes + place % kLanes;
+    workspace.ids[i] = static_cast<pcl::index_t>(neighbor);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      workspace.xyz[axis][i] = xyz_[axis][neighbor];
+    }
+  }
+  const Eigen::Array3f position = boxOf(static_cast<std::size_t>(id)).low;
+  return {id,
+          {position.x(), position.y(), position.z()},
           k,
-          nearest.ids.data(),
-          nearest.x.data(),
-          nearest.y.data(),
-          nearest.z.data()};
+          workspace.ids.data(),
+          workspace.xyz[0].data(),
+          workspace.xyz[1].data(),
+          workspace.xyz[2].data()};
+}
+
+// How many positions there are in some blocks, ascending; the last of all may not be full.
+std::size_t NeighborSearch::sizeOf(const std::uint32_t* blocks, std::size_t num_blocks) const {
+  if (num_blocks == 0) {
+    return 0;
+  }
+  const std::size_t end = (blocks[num_blocks - 1] + std::size_t{1}) * kLanes;
+  return num_blocks * kLanes - (end > size_ ? end - size_ : 0);
 }
 
 }  // namespace storey::detail

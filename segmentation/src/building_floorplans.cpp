@@ -144,7 +144,8 @@ class Labeling {
 
   void label() {
     while (true) {
-      result_.blocks = labelCells(result_.plan, evidence_, result_.levels, level_points_, energy_);
+      result_.blocks =
+          labelCells(result_.plan, evidence_, result_.levels, level_points_, energy_, threads_);
       // Divided once they are simple: what noise adds to an outline is no reason to do without it.
       prune();
       if (steps_.transitions) {

@@ -2,12 +2,21 @@
 #include <storey/segmentation/detail/cell_energy.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace storey::detail {
 namespace {
 
 constexpr double kForbidden = 10.0;  // of the sum of all costs: more than anything else is worth
+constexpr double kUnits = 1e12;      // of the cut, that the sum of all costs makes
+
+double sumOfCosts(const CellTerms& terms) {
+  double total = 1e-300;
+  for (const double a : terms.area) total += a;
+  for (const double u : terms.unary) total += std::abs(u);
+  return total;
+}
 
 bool holds(const PlanCell& cell, const Eigen::Vector2d& p) {
   const std::size_t n = cell.corners.size();
@@ -19,10 +28,13 @@ bool holds(const PlanCell& cell, const Eigen::Vector2d& p) {
   return true;
 }
 
+// Heights of the horizontal points in a cell, ascending: of those that look down, and up.
+using LevelHeights = std::array<std::vector<double>, 2>;
+
 // The cell of each horizontal point, by a coarse grid of candidate cells.
-std::vector<std::vector<const LevelPoint*>> pointsByCell(const LineArrangement& plan,
-                                                         const std::vector<LevelPoint>& points) {
-  std::vector<std::vector<const LevelPoint*>> by_cell(plan.cells.size());
+std::vector<LevelHeights> heightsByCell(const LineArrangement& plan,
+                                        const std::vector<LevelPoint>& points) {
+  std::vector<LevelHeights> by_cell(plan.cells.size());
   if (points.empty()) return by_cell;
   constexpr int kGrid = 128;
   Eigen::Vector2d low = plan.cells.front().corners.front();
@@ -56,27 +68,33 @@ std::vector<std::vector<const LevelPoint*>> pointsByCell(const LineArrangement& 
         static_cast<std::size_t>(indexOf(p.position, 1) * kGrid + indexOf(p.position, 0));
     for (const int c : candidates[g]) {
       if (!holds(plan.cells[static_cast<std::size_t>(c)], p.position)) continue;
-      by_cell[static_cast<std::size_t>(c)].push_back(&p);
+      by_cell[static_cast<std::size_t>(c)][p.up ? 1 : 0].push_back(p.z);
       break;
     }
+  }
+  for (LevelHeights& heights : by_cell) {
+    for (std::vector<double>& list : heights) std::sort(list.begin(), list.end());
   }
   return by_cell;
 }
 
 // A face up means solid below it and air above; a face down the reverse.
-void addLevelTerms(const LineArrangement& plan,
-                   const std::vector<std::vector<const LevelPoint*>>& by_cell, double z_low,
-                   double z_high, double weight, CellTerms& terms) {
+void addLevelTerms(const LineArrangement& plan, const std::vector<LevelHeights>& by_cell,
+                   double z_low, double z_high, double weight, CellTerms& terms) {
   double box_area = 0.0;
   for (const PlanCell& cell : plan.cells) box_area += cell.area;
   const double z = 0.5 * (z_low + z_high);
   const double scale = weight * (z_high - z_low) / (0.25 * std::sqrt(box_area));
+  const auto below = [z](const std::vector<double>& heights) {
+    return static_cast<double>(std::upper_bound(heights.begin(), heights.end(), z) -
+                               heights.begin());
+  };
   for (std::size_t c = 0; c < plan.cells.size(); ++c) {
-    double inside = 0.0;
-    double outside = 0.0;
-    for (const LevelPoint* p : by_cell[c]) ((p->z > z) == p->up ? inside : outside) += 1.0;
-    if (inside + outside < 1.0) continue;
-    terms.unary[c] += plan.cells[c].area * scale * (outside - inside) / (outside + inside);
+    const auto& [down, up] = by_cell[c];
+    const auto all = static_cast<double>(down.size() + up.size());
+    if (all < 1.0) continue;
+    const double outside = static_cast<double>(down.size()) - below(down) + below(up);
+    terms.unary[c] += plan.cells[c].area * scale * (2.0 * outside - all) / all;
   }
 }
 
@@ -113,7 +131,7 @@ std::vector<CellTerms> termsOfLayers(const LineArrangement& plan, const WallEvid
                                      const std::vector<std::size_t>& levels,
                                      const std::vector<LevelPoint>& level_points,
                                      double level_weight) {
-  const auto by_cell = pointsByCell(plan, level_points);
+  const auto by_cell = heightsByCell(plan, level_points);
   std::vector<CellTerms> layers;
   for (std::size_t l = 0; l + 1 < levels.size(); ++l) {
     layers.push_back(termsOfBins(plan, evidence, levels[l], levels[l + 1]));
@@ -123,38 +141,65 @@ std::vector<CellTerms> termsOfLayers(const LineArrangement& plan, const WallEvid
   return layers;
 }
 
-LabelCut::LabelCut(const LineArrangement& plan, const CellTerms& terms, double gap)
-    : plan_(&plan), tied_(plan.edges.size(), 0), flow_(plan.cells.size()) {
-  double total = 1e-300;
-  for (const double a : terms.area) total += a;
-  for (const double u : terms.unary) total += std::abs(u);
-  const double scale = 1e12 / total;  // energies as integers: exact sums, the same on any machine
-  const auto integer = [&](double value) {
-    return static_cast<MaxFlow::Capacity>(std::llround(value * scale));
-  };
-  forbidden_ = integer(kForbidden * total);
+LabelCut::LabelCut(const LineArrangement& plan, double total, double gap)
+    : plan_(&plan),
+      gap_(gap),
+      total_(total),
+      tied_(plan.edges.size(), 0),
+      guesses_(plan.edges.size(), 0),
+      costs_(plan.cells.size(), 0),
+      flow_(plan.cells.size()) {
   flow_.reserve(plan.edges.size());
-  std::vector<double> unary = terms.unary;  // cost of being inside
-  for (std::size_t e = 0; e < plan.edges.size(); ++e) {
-    const PlanEdge& edge = plan.edges[e];
-    unary[static_cast<std::size_t>(edge.ahead)] += terms.signed_area[e];
-    unary[static_cast<std::size_t>(edge.behind)] -= terms.signed_area[e];
-    const auto guess = integer(gap * (terms.area[e] - std::abs(terms.signed_area[e])));
-    flow_.addEdge(static_cast<std::size_t>(edge.behind), static_cast<std::size_t>(edge.ahead),
-                  guess, guess);
+  for (const PlanEdge& edge : plan.edges) {
+    flow_.addEdge(static_cast<std::size_t>(edge.behind), static_cast<std::size_t>(edge.ahead), 0,
+                  0);
   }
   for (std::size_t c = 0; c < plan.cells.size(); ++c) {
+    if (plan.at_border[c] != 0) flow_.addTerminalCapacities(c, 0, integer(kForbidden * total));
+  }
+}
+
+LabelCut::LabelCut(const LineArrangement& plan, const CellTerms& terms, double gap)
+    : LabelCut(plan, sumOfCosts(terms), gap) {
+  raiseTo(terms);
+}
+
+LabelCut LabelCut::ofRising(const LineArrangement& plan, const CellTerms& most, double gap) {
+  return LabelCut(plan, sumOfCosts(most), gap);
+}
+
+// Energies as integers: exact sums, the same on any machine.
+MaxFlow::Capacity LabelCut::integer(double value) const {
+  return static_cast<MaxFlow::Capacity>(std::llround(value * (kUnits / total_)));
+}
+
+void LabelCut::raiseTo(const CellTerms& terms) {
+  std::vector<double> unary = terms.unary;  // cost of being inside
+  for (std::size_t e = 0; e < plan_->edges.size(); ++e) {
+    const PlanEdge& edge = plan_->edges[e];
+    unary[static_cast<std::size_t>(edge.ahead)] += terms.signed_area[e];
+    unary[static_cast<std::size_t>(edge.behind)] -= terms.signed_area[e];
+    // What more layers leave unseen is no less, but for rounding.
+    const auto guess = integer(gap_ * (terms.area[e] - std::abs(terms.signed_area[e])));
+    if (guess <= guesses_[e]) continue;
+    flow_.raiseEdge(e, guess - guesses_[e], guess - guesses_[e]);
+    guesses_[e] = guess;
+  }
+  for (std::size_t c = 0; c < plan_->cells.size(); ++c) {
+    if (plan_->at_border[c] != 0) continue;
     // Source side = inside: pays `to_sink` there, `from_source` on the other side.
-    const double cost = plan.at_border[c] != 0 ? kForbidden * total : unary[c];
-    flow_.addTerminalCapacities(c, cost < 0.0 ? integer(-cost) : 0, cost > 0.0 ? integer(cost) : 0);
+    const MaxFlow::Capacity more = integer(unary[c]) - costs_[c];
+    if (more == 0) continue;
+    flow_.addTerminalCapacities(c, more < 0 ? -more : 0, more > 0 ? more : 0);
+    costs_[c] += more;
   }
 }
 
 void LabelCut::tie(std::size_t edge) {
   if (tied_[edge] != 0) return;
   tied_[edge] = 1;
-  flow_.addEdge(static_cast<std::size_t>(plan_->edges[edge].behind),
-                static_cast<std::size_t>(plan_->edges[edge].ahead), forbidden_, forbidden_);
+  const MaxFlow::Capacity forbidden = integer(kForbidden * total_);
+  flow_.raiseEdge(edge, forbidden, forbidden);
 }
 
 std::vector<char> LabelCut::solve() {

@@ -21,14 +21,32 @@ void MaxFlow::addTerminalCapacities(std::size_t node, Capacity from_source, Capa
   (residual > 0 ? from_source : to_sink) += std::abs(residual);
   flow_ += std::min(from_source, to_sink);  // straight through the node
   residual = from_source - to_sink;
+  changed_.push_back(static_cast<Index>(node));
 }
 
-void MaxFlow::addEdge(std::size_t i, std::size_t j, Capacity capacity, Capacity reverse_capacity) {
+std::size_t MaxFlow::addEdge(std::size_t i, std::size_t j, Capacity capacity,
+                             Capacity reverse_capacity) {
   assert(i < nodes_.size() && j < nodes_.size());
-  assert(capacity >= 0 && reverse_capacity >= 0);
-  if (i == j) return;
-  addArc(i, j, capacity);
-  addArc(j, i, reverse_capacity);
+  addArc(i, j, 0);
+  addArc(j, i, 0);
+  const std::size_t edge = arcs_.size() / 2 - 1;
+  if (i != j) raiseEdge(edge, capacity, reverse_capacity);  // an edge to itself is never cut
+  return edge;
+}
+
+void MaxFlow::raiseEdge(std::size_t edge, Capacity capacity, Capacity reverse_capacity) {
+  assert(2 * edge + 1 < arcs_.size() && capacity >= 0 && reverse_capacity >= 0);
+  const auto a = static_cast<Index>(2 * edge);
+  raiseArc(a, capacity);
+  raiseArc(a ^ 1, reverse_capacity);
+}
+
+void MaxFlow::raiseArc(Index index, Capacity more) {
+  arc(index).residual += more;
+  const Index tail = arc(index ^ 1).head;
+  if (more > 0 && at(tail).tree != Tree::kFree) activate(tail);
+  const Index head = arc(index).head;  // of the sink's tree, it may hold the tail now
+  if (more > 0 && at(head).tree != Tree::kFree) activate(head);
 }
 
 void MaxFlow::addArc(std::size_t tail, std::size_t head, Capacity capacity) {
@@ -37,29 +55,35 @@ void MaxFlow::addArc(std::size_t tail, std::size_t head, Capacity capacity) {
 }
 
 MaxFlow::Capacity MaxFlow::solve() {
-  plantTrees();
+  ++time_;
+  for (const Index node : changed_) plant(node);
+  changed_.clear();
+  adoptAll();
   for (std::size_t next = 0; next < active_.size(); ++next) {
     const Index node = active_[next];
     at(node).active = false;
     // The path found may leave the node in its tree, with arcs not looked at yet.
     for (Index middle = grow(node); middle != kNone; middle = grow(node)) augment(middle);
   }
+  active_.clear();
   return flow_;
 }
 
-// Every node that a terminal can still reach by itself is the root of a tree.
-void MaxFlow::plantTrees() {
-  active_.clear();
-  time_ = 0;
-  for (std::size_t v = 0; v < nodes_.size(); ++v) {
-    Node& node = nodes_[v];
-    node.tree = node.terminal > 0 ? Tree::kSource : node.terminal < 0 ? Tree::kSink : Tree::kFree;
-    node.parent = node.tree == Tree::kFree ? kNone : kTerminal;
-    node.distance = 1;
-    node.time = 0;
-    node.active = false;
-    if (node.tree != Tree::kFree) activate(static_cast<Index>(v));
+// A node that a terminal can still reach by itself is the root of a tree, and one that it cannot
+// is none.
+void MaxFlow::plant(Index node) {
+  Node& own = at(node);
+  if (own.terminal == 0) {
+    if (own.parent == kTerminal) orphan(node);
+    return;
   }
+  const Tree tree = own.terminal > 0 ? Tree::kSource : Tree::kSink;
+  if (own.tree != tree && own.tree != Tree::kFree) abandon(node);
+  own.tree = tree;
+  own.parent = kTerminal;
+  own.distance = 1;
+  own.time = time_;
+  activate(node);
 }
 
 void MaxFlow::activate(Index node) {
@@ -102,10 +126,14 @@ void MaxFlow::augment(Index middle) {
   arc(middle ^ 1).residual += flow;
   push(arc(middle ^ 1).head, 1, flow);
   push(arc(middle).head, 0, flow);
+  adoptAll();
+}
+
+void MaxFlow::adoptAll() {
   while (!orphans_.empty()) {
     const Index node = orphans_.back();
     orphans_.pop_back();
-    adopt(node);
+    if (at(node).parent == kNone) adopt(node);  // or else it was planted meanwhile
   }
 }
 
@@ -163,6 +191,8 @@ void MaxFlow::adopt(Index node) {
   own.time = time_;
 }
 
+// Takes the node out of its tree. Its children become orphans, and its neighbours there look at it
+// again.
 void MaxFlow::abandon(Index node) {
   Node& own = at(node);
   for (Index a = own.first; a != kNone; a = arc(a).next) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/segmentation/detail/grid_cells.h>
 #include <storey/segmentation/detail/level_columns.h>
+#include <storey/segmentation/detail/planar_patches.h>
 #include <storey/segmentation/detail/point_classes.h>
 #include <storey/segmentation/detail/union_find.h>
 #include <storey/segmentation/detail/wall_support.h>
@@ -19,6 +20,8 @@ constexpr double kMinInCube = 8.0;    // points, for a mean normal
 constexpr double kCubeSide = 2.0;     // cells of the support of a wall
 constexpr double kGroundReach = 6.0;  // noise deviations from the ground's face
 constexpr double kGap = 0.5;          // of the side of the least wall
+constexpr double kMinShare = 0.5;     // of the points in the cells of a patch
+constexpr double kBeside = 0.25;      // of the side of the least wall
 constexpr double kMinGroup = 0.1;     // of the upright points of the largest
 
 // The cubes of a grid that points lie in, and the number of each point's; `GridCells::kNone` for
@@ -121,10 +124,39 @@ UnionFind<> groupsOf(const GridCells& cubes) {
   return groups;
 }
 
+void findSmall(const std::vector<OrientedPoint>& points, const WallScale& scale, double least_wall,
+               std::vector<PointClass>& classes) {
+  std::vector<char> counts(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    counts[i] = classes[i] != PointClass::Ground && classes[i] != PointClass::NonPlanar ? 1 : 0;
+  }
+  const PlanarPatches patches = findPlanarPatches(points, counts, scale);
+  const double side = kBeside * std::sqrt(least_wall);
+  const Cubes large = cubesOf(points, side, [&](std::size_t i) {
+    const std::size_t patch = patches.of[i];
+    return patch != PlanarPatches::kNone && patches.area[patch] > least_wall &&
+           patches.share[patch] > kMinShare;
+  });
+  const auto isBeside = [&](const OrientedPoint& point) {
+    const Eigen::Vector3d p = point.position.cast<double>();
+    const GridCell at = {cellAlong(p.x(), side), cellAlong(p.y(), side), cellAlong(p.z(), side)};
+    for (std::int64_t k = 0; k < 27; ++k) {
+      const GridCell beside = {at[0] + k / 9 - 1, at[1] + k / 3 % 3 - 1, at[2] + k % 3 - 1};
+      if (large.cells.find(beside) != GridCells::kNone) return true;
+    }
+    return false;
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (counts[i] == 0 || large.of[i] != GridCells::kNone) continue;
+    if (!isBeside(points[i])) classes[i] = PointClass::Small;
+  }
+}
+
 void findApart(const std::vector<OrientedPoint>& points, double side,
                std::vector<PointClass>& classes) {
   const Cubes cubes = cubesOf(points, side, [&](std::size_t i) {
-    return classes[i] != PointClass::Ground && classes[i] != PointClass::NonPlanar;
+    return classes[i] != PointClass::Ground && classes[i] != PointClass::NonPlanar &&
+           classes[i] != PointClass::Small;
   });
   UnionFind<> groups = groupsOf(cubes.cells);
   std::vector<double> upright(cubes.cells.size(), 0.0);
@@ -150,6 +182,7 @@ std::vector<PointClass> classifyPoints(const std::vector<OrientedPoint>& points,
   }
   findGround(points, scale, classes);
   findLeaning(points, kCubeSide * supportCellSize(scale), classes);
+  findSmall(points, scale, least_wall, classes);
   findApart(points, kGap * std::sqrt(least_wall), classes);
   return classes;
 }

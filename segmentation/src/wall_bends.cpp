@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace storey::detail {
 namespace {
@@ -43,14 +42,13 @@ double turnBetween(const WallMoments& a, const WallMoments& b) {
 }
 
 // The points in columns along the line, from their first place on.
-std::vector<WallMoments> columnsOf(const std::vector<WallPoint>& points,
-                                   const std::vector<int>& support, const WallLine& line,
-                                   double width) {
-  const auto [low, high] = endsAlong(points, support, line);
+std::vector<WallMoments> columnsOf(const std::vector<WallPoint>& points, const LinePoints& support,
+                                   const WallLine& line, double width) {
+  const auto [low, high] = rangeOf(support.s);
   std::vector<WallMoments> columns(static_cast<std::size_t>((high - low) / width) + 1);
-  for (const int i : support) {
-    const WallPoint& p = points[static_cast<std::size_t>(i)];
-    const double s = line.along(p.position) - low;
+  for (std::size_t k = 0; k < support.size(); ++k) {
+    const WallPoint& p = points[static_cast<std::size_t>(support.number[k])];
+    const double s = support.s[k] - low;
     columns[static_cast<std::size_t>(s / width)].add(WallMoments::of(p, s, line));
   }
   return columns;
@@ -83,37 +81,19 @@ double clearestBend(const std::vector<WallMoments>& columns, double width, doubl
 
 }  // namespace
 
-std::pair<double, double> endsAlong(const std::vector<WallPoint>& points,
-                                    const std::vector<int>& support, const WallLine& line) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const int i : support) {
-    const double s = line.along(points[static_cast<std::size_t>(i)].position);
-    low = std::min(low, s);
-    high = std::max(high, s);
-  }
-  return {low, high};
-}
-
-std::vector<int> onOneSideOfBend(const std::vector<WallPoint>& points,
-                                 const std::vector<int>& support, const WallScale& scale,
-                                 const WallLine& line) {
+LinePoints onOneSideOfBend(const std::vector<WallPoint>& points, LinePoints support,
+                           const WallScale& scale, const WallLine& line) {
   const double width = supportCellSize(scale);
-  std::vector<int> kept = support;
-  while (!kept.empty()) {
-    const double place = clearestBend(columnsOf(points, kept, line, width), width, scale.noise);
+  while (!support.empty()) {
+    const double place = clearestBend(columnsOf(points, support, line, width), width, scale.noise);
     if (!(place > 0.0)) break;
-    const double bend = endsAlong(points, kept, line).first + place;
-    const auto middle = std::stable_partition(kept.begin(), kept.end(), [&](int i) {
-      return line.along(points[static_cast<std::size_t>(i)].position) < bend;
-    });
-    if (middle - kept.begin() >= kept.end() - middle) {
-      kept.erase(middle, kept.end());
-    } else {
-      kept.erase(kept.begin(), middle);
-    }
+    const double bend = rangeOf(support.s).first + place;
+    const auto before =
+        std::count_if(support.s.begin(), support.s.end(), [&](double s) { return s < bend; });
+    const bool first_side = 2 * static_cast<std::size_t>(before) >= support.size();
+    support.keepWhere([&](std::size_t k) { return (support.s[k] < bend) == first_side; });
   }
-  return kept;
+  return support;
 }
 
 }  // namespace storey::detail

@@ -2,6 +2,7 @@
 #include <storey/segmentation/detail/wall_density.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -17,48 +18,92 @@ constexpr double kRadiusStep = 1.4;      // the area doubles
 constexpr double kMostRadius = 1.0 / 8;  // of the height of all
 
 // The points by height.
-std::vector<WallPoint> sortedByHeight(const std::vector<WallPoint>& points) {
-  std::vector<std::pair<double, std::size_t>> order;
-  order.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) order.emplace_back(points[i].z, i);
-  std::sort(order.begin(), order.end());
-  std::vector<WallPoint> sorted;
-  sorted.reserve(points.size());
-  for (const auto& [z, i] : order) sorted.push_back(points[i]);
-  return sorted;
-}
-
-double pointsAround(const std::vector<WallPoint>& sorted, const WallPoint& center, double radius) {
-  const auto below = [](const WallPoint& p, double z) { return p.z < z; };
-  auto p = std::lower_bound(sorted.begin(), sorted.end(), center.z - radius, below);
-  double count = -1.0;  // itself
-  for (; p != sorted.end() && p->z <= center.z + radius; ++p) {
-    const double dz = p->z - center.z;
-    const double distance = (p->position - center.position).squaredNorm() + dz * dz;
-    if (distance < radius * radius && p->normal.dot(center.normal) > kMinAgreement) count += 1.0;
+class SortedPoints {
+ public:
+  explicit SortedPoints(const std::vector<WallPoint>& points) {
+    positions_.reserve(points.size());
+    heights_.reserve(points.size());
+    normals_.reserve(points.size());
+    for (const auto& [z, i] : orderOf(points)) {
+      positions_.push_back(points[i].position);
+      heights_.push_back(z);
+      normals_.push_back(points[i].normal);
+    }
   }
-  return count;
-}
+
+  const std::vector<double>& heights() const { return heights_; }
+
+  // Points of the same wall about that one, itself left out.
+  double countAround(std::size_t center, double radius) const {
+    const double z = heights_[center];
+    const auto from = std::lower_bound(heights_.begin(), heights_.end(), z - radius);
+    const auto to = std::upper_bound(from, heights_.end(), z + radius);
+    double count = -1.0;
+    for (auto i = static_cast<std::size_t>(from - heights_.begin());
+         i < static_cast<std::size_t>(to - heights_.begin()); ++i) {
+      const double dz = heights_[i] - z;
+      const double distance = (positions_[i] - positions_[center]).squaredNorm() + dz * dz;
+      if (distance < radius * radius && normals_[i].dot(normals_[center]) > kMinAgreement) {
+        count += 1.0;
+      }
+    }
+    return count;
+  }
+
+ private:
+  using Place = std::pair<double, std::size_t>;
+
+  // By height and number: into slices first, which leaves little to sort.
+  static std::vector<Place> orderOf(const std::vector<WallPoint>& points) {
+    constexpr std::size_t kSlices = 1024;
+    const auto [lowest, highest] =
+        std::minmax_element(points.begin(), points.end(),
+                            [](const WallPoint& a, const WallPoint& b) { return a.z < b.z; });
+    const double low = lowest->z;
+    const double slice = std::max((highest->z - low) / kSlices, std::numeric_limits<double>::min());
+    const auto sliceOf = [&](const WallPoint& p) {
+      return std::min(kSlices - 1, static_cast<std::size_t>((p.z - low) / slice));
+    };
+    std::array<std::size_t, kSlices + 1> first = {};
+    for (const WallPoint& p : points) ++first[sliceOf(p) + 1];
+    for (std::size_t s = 0; s < kSlices; ++s) first[s + 1] += first[s];
+    std::vector<Place> order(points.size());
+    auto next = first;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      order[next[sliceOf(points[i])]++] = {points[i].z, i};
+    }
+    for (std::size_t s = 0; s < kSlices; ++s) {
+      std::sort(order.begin() + static_cast<std::ptrdiff_t>(first[s]),
+                order.begin() + static_cast<std::ptrdiff_t>(first[s + 1]));
+    }
+    return order;
+  }
+
+  std::vector<Eigen::Vector2d> positions_;
+  std::vector<double> heights_;
+  std::vector<Eigen::Vector2d> normals_;
+};
 
 }  // namespace
 
 HeightDensity::HeightDensity(const std::vector<WallPoint>& points, const WallScale& scale)
     : densities_(kZones, scale.density) {
   if (points.empty()) return;
-  const std::vector<WallPoint> sorted = sortedByHeight(points);
-  low_ = sorted.front().z;
-  const double height = sorted.back().z - low_;
+  const SortedPoints sorted(points);
+  const std::vector<double>& heights = sorted.heights();
+  low_ = heights.front();
+  const double height = heights.back() - low_;
   step_ = std::max(height / kZones, std::numeric_limits<double>::min());
   std::size_t end = 0;
   for (std::size_t k = 0; k < kZones; ++k) {
     const std::size_t begin = end;
-    while (end < sorted.size() && zoneOf(sorted[end].z) == k) ++end;
+    while (end < heights.size() && zoneOf(heights[end]) == k) ++end;
     const std::size_t step = (end - begin) / kSamples + 1;
     double radius = std::max(kLeastRadius * scale.noise, std::sqrt(1.0 / scale.density));
     for (; begin < end; radius *= kRadiusStep) {
       std::vector<double> counts;
       for (std::size_t i = begin + step / 2; i < end; i += step) {
-        counts.push_back(pointsAround(sorted, sorted[i], radius));
+        counts.push_back(sorted.countAround(i, radius));
       }
       if (counts.empty()) break;
       const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);

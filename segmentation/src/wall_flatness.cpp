@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace storey::detail {
@@ -23,16 +24,14 @@ constexpr std::size_t kLevels = 48;      // of height
 // A support, not empty, in bins of equal width along the line.
 class Profile {
  public:
-  Profile(const std::vector<WallPoint>& points, const std::vector<int>& support,
-          const WallLine& line)
-      : support_(support) {
-    const auto [low, high] = endsAlong(points, support, line);
+  explicit Profile(const LinePoints& support) : bin_of_(support.size()) {
+    const auto [low, high] = rangeOf(support.s);
     const double step = std::max((high - low) / kBins, std::numeric_limits<double>::min());
-    for (const int i : support) {
-      const WallPoint& p = points[static_cast<std::size_t>(i)];
-      const double s = line.along(p.position) - low;
-      bin_of_.push_back(std::min(static_cast<std::size_t>(s / step), kBins - 1));
-      bins_[bin_of_.back()].add(WallMoments::of(p, s, line));
+    for (std::size_t k = 0; k < support.size(); ++k) {
+      const double s = support.s[k] - low;
+      const std::size_t bin = std::min(static_cast<std::size_t>(s / step), kBins - 1);
+      bin_of_[k] = static_cast<std::uint8_t>(bin);
+      bins_[bin].add(WallMoments::ofPlace(s, support.d[k]));
     }
   }
 
@@ -57,18 +56,10 @@ class Profile {
     return all.n > 0.0 && off <= kMaxOffShare * all.n;
   }
 
-  template <typename Predicate>
-  std::vector<int> pointsWhere(const Predicate& keeps) const {
-    std::vector<int> kept;
-    for (std::size_t k = 0; k < support_.size(); ++k) {
-      if (keeps(bin_of_[k])) kept.push_back(support_[k]);
-    }
-    return kept;
-  }
+  std::size_t binOf(std::size_t point) const { return bin_of_[point]; }
 
  private:
-  const std::vector<int>& support_;
-  std::vector<std::size_t> bin_of_;  // parallel to the support
+  std::vector<std::uint8_t> bin_of_;  // parallel to the support
   std::array<WallMoments, kBins> bins_;
 };
 
@@ -130,49 +121,36 @@ std::pair<std::size_t, std::size_t> withoutSetback(const std::array<Heights, kLe
 
 }  // namespace
 
-std::vector<int> atMainHeights(const std::vector<WallPoint>& points,
-                               const std::vector<int>& support, const WallScale& scale,
-                               const WallLine& line) {
-  if (support.empty()) return {};
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const int i : support) {
-    low = std::min(low, points[static_cast<std::size_t>(i)].z);
-    high = std::max(high, points[static_cast<std::size_t>(i)].z);
-  }
+LinePoints atMainHeights(LinePoints support, double noise) {
+  if (support.empty()) return support;
+  const auto [low, high] = rangeOf(support.z);
   const double step = std::max((high - low) / kLevels, std::numeric_limits<double>::min());
-  const auto levelOf = [&](int i) {
-    const double place = (points[static_cast<std::size_t>(i)].z - low) / step;
-    return std::min(static_cast<std::size_t>(place), kLevels - 1);
-  };
+  std::vector<std::uint8_t> level_of(support.size());
   std::array<Heights, kLevels> levels;
-  for (const int i : support) {
-    levels[levelOf(i)].add({1.0, line.across(points[static_cast<std::size_t>(i)].position)});
+  for (std::size_t k = 0; k < support.size(); ++k) {
+    const std::size_t level =
+        std::min(static_cast<std::size_t>((support.z[k] - low) / step), kLevels - 1);
+    level_of[k] = static_cast<std::uint8_t>(level);
+    levels[level].add({1.0, support.d[k]});
   }
   std::pair<std::size_t, std::size_t> range{0, kLevels};
   for (auto less = range;
-       (less = withoutSetback(levels, range.first, range.second, scale.noise)) != range;) {
+       (less = withoutSetback(levels, range.first, range.second, noise)) != range;) {
     range = less;
   }
-  std::vector<int> kept;
-  for (const int i : support) {
-    const std::size_t level = levelOf(i);
-    if (level >= range.first && level < range.second) kept.push_back(i);
-  }
-  return kept;
+  if (range.first == 0 && range.second == kLevels) return support;
+  support.keepWhere(
+      [&](std::size_t k) { return level_of[k] >= range.first && level_of[k] < range.second; });
+  return support;
 }
 
-std::vector<std::pair<double, double>> runsAlong(const std::vector<WallPoint>& points,
-                                                 const std::vector<int>& support,
-                                                 const WallScale& scale, const WallLine& line) {
+std::vector<std::pair<double, double>> runsAlong(const LinePoints& support,
+                                                 const WallScale& scale) {
   if (support.empty()) return {};
-  const auto [low, high] = endsAlong(points, support, line);
+  const auto [low, high] = rangeOf(support.s);
   const double side = supportCellSize(scale);
   std::vector<char> seen(static_cast<std::size_t>((high - low) / side) + 1, 0);
-  for (const int i : support) {
-    const double s = line.along(points[static_cast<std::size_t>(i)].position);
-    seen[static_cast<std::size_t>((s - low) / side)] = 1;
-  }
+  for (const double s : support.s) seen[static_cast<std::size_t>((s - low) / side)] = 1;
   std::vector<std::pair<double, double>> runs;
   for (std::size_t c = 0; c < seen.size(); ++c) {
     if (seen[c] == 0) continue;
@@ -183,34 +161,34 @@ std::vector<std::pair<double, double>> runsAlong(const std::vector<WallPoint>& p
   return runs;
 }
 
-std::vector<int> withoutLeaningRuns(const std::vector<WallPoint>& points,
-                                    const std::vector<int>& support, const WallScale& scale,
-                                    const WallLine& line, bool by_normals) {
-  const auto runs = runsAlong(points, support, scale, line);
-  std::vector<std::size_t> run_of;  // parallel to the support
-  std::vector<WallMoments> moments(runs.size());
-  for (const int i : support) {
-    const WallPoint& p = points[static_cast<std::size_t>(i)];
-    const double s = line.along(p.position);
+LinePoints withoutLeaningRuns(const std::vector<WallPoint>& points, LinePoints support,
+                              const WallScale& scale, const WallLine& line, bool by_normals) {
+  const auto runs = runsAlong(support, scale);
+  const auto runOf = [&](double s) {
     std::size_t r = 0;
     while (r + 1 < runs.size() && s > runs[r].second) ++r;
-    run_of.push_back(r);
-    moments[r].add(WallMoments::of(p, s - runs[r].first, line));
-  }
-  std::vector<int> kept;
+    return r;
+  };
+  std::vector<WallMoments> moments(runs.size());
   for (std::size_t k = 0; k < support.size(); ++k) {
-    const std::size_t r = run_of[k];
-    const double length = runs[r].second - runs[r].first;
-    if (!leans(moments[r], length, scale.noise, by_normals)) kept.push_back(support[k]);
+    const std::size_t r = runOf(support.s[k]);
+    const double s = support.s[k] - runs[r].first;
+    moments[r].add(
+        by_normals ? WallMoments::of(points[static_cast<std::size_t>(support.number[k])], s, line)
+                   : WallMoments::ofPlace(s, support.d[k]));
   }
-  return kept;
+  std::vector<char> leaning(runs.size(), 0);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    leaning[r] = leans(moments[r], runs[r].second - runs[r].first, scale.noise, by_normals) ? 1 : 0;
+  }
+  if (std::count(leaning.begin(), leaning.end(), 1) == 0) return support;
+  support.keepWhere([&](std::size_t k) { return leaning[runOf(support.s[k])] == 0; });
+  return support;
 }
 
-std::vector<int> alongMainHalf(const std::vector<WallPoint>& points,
-                               const std::vector<int>& support, const WallScale& scale,
-                               const WallLine& line) {
-  if (support.empty()) return {};
-  const Profile profile(points, support, line);
+LinePoints alongMainHalf(LinePoints support, double noise) {
+  if (support.empty()) return support;
+  const Profile profile(support);
   WallMoments main;
   for (std::size_t first = 0; 2 * first <= kBins; ++first) {
     const WallMoments half = profile.sumOf(first, first + kBins / 2);
@@ -218,32 +196,35 @@ std::vector<int> alongMainHalf(const std::vector<WallPoint>& points,
   }
   const double spread = main.spread();
   if (!(spread > 0.0)) return support;
-  return profile.pointsWhere([&](std::size_t b) {
+  std::array<char, kBins> agrees{};
+  for (std::size_t b = 0; b < kBins; ++b) {
     const WallMoments& bin = profile[b];
     const double lever = bin.s / bin.n - main.s / main.n;
     const double off = std::abs(bin.d / bin.n - main.d / main.n - main.slope() * lever);
     const double variance = 1.0 / bin.n + 1.0 / main.n + lever * lever / spread;
-    return off <= scale.noise * (kFlat + kDeviations * std::sqrt(variance));
-  });
+    agrees[b] = off <= noise * (kFlat + kDeviations * std::sqrt(variance)) ? 1 : 0;
+  }
+  support.keepWhere([&](std::size_t k) { return agrees[profile.binOf(k)] != 0; });
+  return support;
 }
 
-std::vector<int> flatStretch(const std::vector<WallPoint>& points, const std::vector<int>& support,
-                             const WallScale& scale, const WallLine& line) {
-  if (support.empty()) return {};
-  const Profile profile(points, support, line);
+LinePoints flatStretch(LinePoints support, double noise) {
+  if (support.empty()) return support;
+  const Profile profile(support);
   for (const std::size_t parts : {1, 2, 3, 4, 6, 8, 12}) {
     const std::size_t width = kBins / parts;
     double most = 0.0;
     std::size_t best = 0;
     for (std::size_t first = 0; first + width <= kBins; ++first) {
       const double held = profile.sumOf(first, first + width).n;
-      if (held <= most || !profile.isFlat(first, first + width, scale.noise)) continue;
+      if (held <= most || !profile.isFlat(first, first + width, noise)) continue;
       most = held;
       best = first;
     }
-    if (most > 0.0) {
-      return profile.pointsWhere([&](std::size_t b) { return b >= best && b < best + width; });
-    }
+    if (most == 0.0) continue;
+    support.keepWhere(
+        [&](std::size_t k) { return profile.binOf(k) >= best && profile.binOf(k) < best + width; });
+    return support;
   }
   return {};
 }

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -29,18 +29,12 @@ constexpr double kBeside = 10.0;       // noise deviations
 constexpr double kMinOnShare = 0.4;    // of the points to either side; 0.25 of an even density
 constexpr double kStray = 0.03;        // of the support, at either end
 
-// Square cells of (s, z) about a line over the box of some points, which is not empty.
+// Square cells of (s, z) over the box of some points, which are not none.
 class CellGrid {
  public:
-  CellGrid(const std::vector<WallPoint>& points, const std::vector<int>& indices,
-           const WallLine& line, double side)
-      : line_(line), side_(side) {
-    for (const int i : indices) {
-      const WallPoint& p = points[static_cast<std::size_t>(i)];
-      const Eigen::Array2d at = placeOf(p);
-      low_ = low_.min(at);
-      high_ = high_.max(at);
-    }
+  CellGrid(const LinePoints& points, double side) : side_(side) {
+    std::tie(low_.x(), high_.x()) = rangeOf(points.s);
+    std::tie(low_.y(), high_.y()) = rangeOf(points.z);
     columns_ = static_cast<std::ptrdiff_t>((high_.x() - low_.x()) / side) + 1;
     rows_ = static_cast<std::ptrdiff_t>((high_.y() - low_.y()) / side) + 1;
   }
@@ -48,48 +42,39 @@ class CellGrid {
   std::size_t size() const { return static_cast<std::size_t>(columns_ * rows_); }
   std::ptrdiff_t columns() const { return columns_; }
   std::ptrdiff_t rows() const { return rows_; }
-  bool holds(const WallPoint& p) const {
-    const Eigen::Array2d at = placeOf(p);
-    return (at >= low_).all() && (at <= high_).all();
+  bool holds(double s, double z) const {
+    return s >= low_.x() && s <= high_.x() && z >= low_.y() && z <= high_.y();
   }
   std::size_t at(std::ptrdiff_t column, std::ptrdiff_t row) const {
     return static_cast<std::size_t>(row * columns_ + column);
   }
-  std::size_t at(const WallPoint& p) const {  // of a point that it holds
-    const Eigen::Array2d cell = (placeOf(p) - low_) / side_;
-    return at(static_cast<std::ptrdiff_t>(cell.x()), static_cast<std::ptrdiff_t>(cell.y()));
+  std::size_t of(double s, double z) const {  // that it holds
+    return at(static_cast<std::ptrdiff_t>((s - low_.x()) / side_),
+              static_cast<std::ptrdiff_t>((z - low_.y()) / side_));
+  }
+  // The cell of each of the points that the grid was made for.
+  std::vector<std::size_t> cellsOf(const LinePoints& points) const {
+    std::vector<std::size_t> cells(points.size());
+    for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = of(points.s[k], points.z[k]);
+    return cells;
   }
 
  private:
-  Eigen::Array2d placeOf(const WallPoint& p) const { return {line_.along(p.position), p.z}; }
-
-  const WallLine& line_;
   double side_;
-  Eigen::Array2d low_ = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Array2d high_ = -low_;
+  Eigen::Array2d low_;
+  Eigen::Array2d high_;
   std::ptrdiff_t columns_ = 0;
   std::ptrdiff_t rows_ = 0;
 };
 
-std::vector<int> withinGate(const std::vector<WallPoint>& points, const std::vector<int>& indices,
-                            const WallLine& line, double gate) {
-  std::vector<int> near;
-  for (const int i : indices) {
-    if (std::abs(line.across(points[static_cast<std::size_t>(i)].position)) < gate) {
-      near.push_back(i);
-    }
-  }
-  return near;
-}
-
 // Points in cells that are filled well enough and not alone.
-std::vector<int> inFullCells(const std::vector<WallPoint>& points, const std::vector<int>& near,
-                             const WallScale& scale, const WallLine& line) {
-  if (near.empty()) return {};
+LinePoints inFullCells(LinePoints near, const WallScale& scale) {
+  if (near.empty()) return near;
   const double side = supportCellSize(scale);
-  const CellGrid grid(points, near, line, side);
+  const CellGrid grid(near, side);
+  const std::vector<std::size_t> cell_of = grid.cellsOf(near);
   std::vector<int> count(grid.size(), 0);
-  for (const int i : near) ++count[grid.at(points[static_cast<std::size_t>(i)])];
+  for (const std::size_t cell : cell_of) ++count[cell];
   const double least = std::max(1.0, kMinOccupancy * scale.density * side * side);
   const auto full = [&](std::ptrdiff_t c, std::ptrdiff_t r) {
     return c >= 0 && r >= 0 && c < grid.columns() && r < grid.rows() &&
@@ -106,11 +91,8 @@ std::vector<int> inFullCells(const std::vector<WallPoint>& points, const std::ve
       kept[grid.at(c, r)] = neighbors >= kMinFullNeighbors ? 1 : 0;
     }
   }
-  std::vector<int> result;
-  for (const int i : near) {
-    if (kept[grid.at(points[static_cast<std::size_t>(i)])] != 0) result.push_back(i);
-  }
-  return result;
+  near.keepWhere([&](std::size_t k) { return kept[cell_of[k]] != 0; });
+  return near;
 }
 
 struct Tile {
@@ -148,50 +130,53 @@ double medianReach(double points, double noise) {
 // Two parallel walls a few deviations apart, at different places or heights, are told apart by the
 // medians of tiles, and so are panes: keeps the points of the tiles whose medians agree with most
 // others. A line that is not settled yet is crossed by its wall, so that more has to be kept.
-std::vector<int> inMainTiles(const std::vector<WallPoint>& points, const std::vector<int>& support,
-                             const WallScale& scale, const WallLine& line, bool settled) {
+LinePoints inMainTiles(LinePoints support, const WallScale& scale, bool settled) {
   if (static_cast<double>(support.size()) < kMinTiles * kTilePoints) return support;
-  const CellGrid grid(points, support, line, std::sqrt(kTilePoints / scale.density));
-  std::vector<std::vector<double>> residuals(grid.size());
-  for (const int i : support) {
-    const WallPoint& p = points[static_cast<std::size_t>(i)];
-    residuals[grid.at(p)].push_back(line.across(p.position));
-  }
+  const CellGrid grid(support, std::sqrt(kTilePoints / scale.density));
+  const std::vector<std::size_t> cell_of = grid.cellsOf(support);
+  std::vector<std::size_t> first(grid.size() + 1, 0);  // of each cell's points
+  for (const std::size_t cell : cell_of) ++first[cell + 1];
+  for (std::size_t c = 0; c < grid.size(); ++c) first[c + 1] += first[c];
+  std::vector<double> residuals(support.size());  // cell by cell
+  std::vector<std::size_t> next = first;
+  for (std::size_t k = 0; k < support.size(); ++k) residuals[next[cell_of[k]]++] = support.d[k];
   std::vector<Tile> tiles;
   std::vector<std::size_t> tile_of(grid.size(), SIZE_MAX);
-  for (std::size_t t = 0; t < residuals.size(); ++t) {
-    std::vector<double>& r = residuals[t];
-    if (r.size() < kMinInTile) continue;
-    std::nth_element(r.begin(), r.begin() + static_cast<std::ptrdiff_t>(r.size() / 2), r.end());
-    tile_of[t] = tiles.size();
-    tiles.push_back({r[r.size() / 2], r.size()});
+  for (std::size_t c = 0; c < grid.size(); ++c) {
+    const std::size_t held = first[c + 1] - first[c];
+    if (held < kMinInTile) continue;
+    const auto begin = residuals.begin() + static_cast<std::ptrdiff_t>(first[c]);
+    const auto middle = begin + static_cast<std::ptrdiff_t>(held / 2);
+    std::nth_element(begin, middle, begin + static_cast<std::ptrdiff_t>(held));
+    tile_of[c] = tiles.size();
+    tiles.push_back({*middle, held});
   }
   if (tiles.empty()) return support;
   const double reach = medianReach(kTilePoints, scale.noise);
   const double center = densestMedian(tiles, 2.0 * reach);
-  std::vector<int> kept;
-  for (const int i : support) {
-    const std::size_t t = tile_of[grid.at(points[static_cast<std::size_t>(i)])];
-    if (t == SIZE_MAX) continue;
+  std::vector<char> kept(grid.size(), 0);
+  for (std::size_t c = 0; c < grid.size(); ++c) {
+    if (tile_of[c] == SIZE_MAX) continue;
+    const Tile& tile = tiles[tile_of[c]];
     const double wide =
-        settled ? medianReach(static_cast<double>(tiles[t].size), scale.noise) : kUnsettled * reach;
-    if (std::abs(tiles[t].median - center) <= wide) kept.push_back(i);
+        settled ? medianReach(static_cast<double>(tile.size), scale.noise) : kUnsettled * reach;
+    kept[c] = std::abs(tile.median - center) <= wide ? 1 : 0;
   }
-  return kept;
+  support.keepWhere([&](std::size_t k) { return kept[cell_of[k]] != 0; });
+  return support;
 }
 
-// Tukey-weighted least squares of d over s. The line turns about the centre of its points.
-void fitLine(const std::vector<WallPoint>& points, const std::vector<int>& support, double cut,
-             bool fit_direction, WallLine& line) {
+// Tukey-weighted least squares of d over s. The line turns about the centre of its points, which
+// are then in its coordinates again.
+void fitLine(LinePoints& support, double cut, bool fit_direction, WallLine& line) {
   double w = 0.0, ws = 0.0, wd = 0.0, wss = 0.0, wsd = 0.0, wdd = 0.0;
-  const Eigen::Vector2d origin = points[static_cast<std::size_t>(support.front())].position;
-  for (const int i : support) {
-    const Eigen::Vector2d& p = points[static_cast<std::size_t>(i)].position;
-    const double d = line.across(p);
+  const Eigen::Vector2d origin = support.position.front();
+  for (std::size_t k = 0; k < support.size(); ++k) {
+    const double d = support.d[k];
     const double u = d / cut;
-    if (std::abs(u) >= 1.0) continue;
-    const double weight = (1.0 - u * u) * (1.0 - u * u);
-    const double s = line.along(p - origin);
+    const double inside = std::max(0.0, 1.0 - u * u);
+    const double weight = inside * inside;
+    const double s = line.along(support.position[k] - origin);
     w += weight;
     ws += weight * s;
     wd += weight * d;
@@ -209,76 +194,75 @@ void fitLine(const std::vector<WallPoint>& points, const std::vector<int>& suppo
                                  (line.offset + wd / w - line.normal.dot(origin)) * line.normal;
   line.normal = (line.normal - slope * line.tangent()).normalized();
   line.offset = line.normal.dot(center);
+  support.moveTo(line);
 }
 
 // The part of the support that is one flat wall. A line whose direction is free is taken by the
 // part that is; one whose direction is locked takes it only where it does not turn against it.
-std::vector<int> flatPart(const std::vector<WallPoint>& points, const std::vector<int>& support,
-                          const WallScale& scale, const SupportOptions& options,
-                          const WallLine& line) {
-  std::vector<int> flat = withoutLeaningRuns(points, support, scale, line, options.by_normals);
+LinePoints flatPart(const std::vector<WallPoint>& points, LinePoints support,
+                    const WallScale& scale, const SupportOptions& options, const WallLine& line) {
+  LinePoints flat = withoutLeaningRuns(points, std::move(support), scale, line, options.by_normals);
   if (!options.fit_direction) return flat;
-  return flatStretch(points, alongMainHalf(points, flat, scale, line), scale, line);
+  return flatStretch(alongMainHalf(std::move(flat), scale.noise), scale.noise);
 }
 
 // A free line again, among all its candidates: what it was cut down to is as short as the panes at
 // its ends made it, and turned by them. Where the points bend, another wall goes on.
-std::vector<int> grownAlong(const std::vector<WallPoint>& points,
-                            const std::vector<int>& candidates, double cut, const WallScale& scale,
-                            const SupportOptions& options, WallLine& line) {
-  std::vector<int> support;
+LinePoints grownAlong(const std::vector<WallPoint>& points, const std::vector<int>& candidates,
+                      double cut, const WallScale& scale, const SupportOptions& options,
+                      WallLine& line) {
+  LinePoints pool(points, candidates, line);
+  LinePoints support;
   for (int round = 0; round < kGrowths; ++round) {
-    support = inFullCells(points, withinGate(points, candidates, line, cut), scale, line);
-    if (options.steps.main_tiles) support = inMainTiles(points, support, scale, line, true);
-    support = onOneSideOfBend(points, support, scale, line);
-    if (support.empty()) return {};
-    fitLine(points, support, cut, true, line);
+    support = inFullCells(pool.within(cut), scale);
+    if (options.steps.main_tiles) support = inMainTiles(std::move(support), scale, true);
+    support = onOneSideOfBend(points, std::move(support), scale, line);
+    if (support.empty()) return support;
+    fitLine(support, cut, true, line);
+    pool.moveTo(line);
   }
-  return flatPart(points, support, scale, options, line);
+  return flatPart(points, std::move(support), scale, options, line);
 }
 
 // A locked direction may be that of another wall, whose line would lean over this one; or the line
 // meets another wall further on, maybe at a small angle.
-std::vector<int> endedAlong(const std::vector<WallPoint>& points, const std::vector<int>& support,
-                            double cut, const WallScale& scale, WallLine& line) {
-  std::vector<int> flat = flatStretch(points, support, scale, line);
-  if (static_cast<double>(flat.size()) < kMinFlatShare * static_cast<double>(support.size())) {
-    return {};
-  }
-  fitLine(points, flat, cut, false, line);
-  flat = onOneSideOfBend(points, flat, scale, line);
-  if (!flat.empty()) fitLine(points, flat, cut, false, line);
-  return flat;
+LinePoints endedAlong(const std::vector<WallPoint>& points, LinePoints support, double cut,
+                      const WallScale& scale, WallLine& line) {
+  const auto size = static_cast<double>(support.size());
+  support = flatStretch(std::move(support), scale.noise);
+  if (static_cast<double>(support.size()) < kMinFlatShare * size) return {};
+  fitLine(support, cut, false, line);
+  support = onOneSideOfBend(points, std::move(support), scale, line);
+  if (!support.empty()) fitLine(support, cut, false, line);
+  return support;
 }
 
-std::vector<char> seenCells(const std::vector<WallPoint>& points, const std::vector<int>& support,
-                            const CellGrid& grid) {
+std::vector<char> seenCells(const LinePoints& support, const CellGrid& grid) {
   std::vector<char> seen(grid.size(), 0);
-  for (const int i : support) seen[grid.at(points[static_cast<std::size_t>(i)])] = 1;
+  for (std::size_t k = 0; k < support.size(); ++k) seen[grid.of(support.s[k], support.z[k])] = 1;
   return seen;
 }
 
 // Whether the points keep to the line. Tree crowns and other clutter fill the space about it
 // evenly.
-bool isSurface(const std::vector<WallPoint>& points, const std::vector<int>& support,
-               const std::vector<int>& candidates, const WallScale& scale, const WallLine& line) {
-  const CellGrid grid(points, support, line, supportCellSize(scale));
-  const std::vector<char> seen = seenCells(points, support, grid);
+bool isSurface(const LinePoints& support, const LinePoints& candidates, const WallScale& scale) {
+  const CellGrid grid(support, supportCellSize(scale));
+  const std::vector<char> seen = seenCells(support, grid);
   double on = 0.0;
   double beside = 0.0;
-  for (const int i : candidates) {
-    const WallPoint& p = points[static_cast<std::size_t>(i)];
-    const double d = std::abs(line.across(p.position)) / scale.noise;
-    if (d < kBeside && grid.holds(p) && seen[grid.at(p)] != 0) (d < kOn ? on : beside) += 1.0;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const double d = std::abs(candidates.d[k]) / scale.noise;
+    const double s = candidates.s[k];
+    const double z = candidates.z[k];
+    if (d < kBeside && grid.holds(s, z) && seen[grid.of(s, z)] != 0) {
+      (d < kOn ? on : beside) += 1.0;
+    }
   }
   return on >= kMinOnShare * (on + beside);
 }
 
 // The heights without the few points at either end that may be of walls below and above.
-std::pair<double, double> mainHeights(const std::vector<WallPoint>& points,
-                                      const std::vector<int>& support) {
-  std::vector<double> heights;
-  for (const int i : support) heights.push_back(points[static_cast<std::size_t>(i)].z);
+std::pair<double, double> mainHeights(std::vector<double> heights) {
   const auto quantile = [&](double share) {
     const auto place = heights.begin() +
                        static_cast<std::ptrdiff_t>(share * static_cast<double>(heights.size() - 1));
@@ -290,14 +274,13 @@ std::pair<double, double> mainHeights(const std::vector<WallPoint>& points,
 }
 
 // Ends, heights, area and runs of the support.
-void describeSupport(const std::vector<WallPoint>& points, const std::vector<int>& support,
-                     const WallScale& scale, WallLine& line) {
+void describeSupport(const LinePoints& support, const WallScale& scale, WallLine& line) {
   const double side = supportCellSize(scale);
-  const std::vector<char> seen = seenCells(points, support, CellGrid(points, support, line, side));
+  const std::vector<char> seen = seenCells(support, CellGrid(support, side));
   line.support = support.size();
   line.support_area = static_cast<double>(std::count(seen.begin(), seen.end(), 1)) * side * side;
-  std::tie(line.z_min, line.z_max) = mainHeights(points, support);
-  line.runs = runsAlong(points, support, scale, line);
+  std::tie(line.z_min, line.z_max) = mainHeights(support.z);
+  line.runs = runsAlong(support, scale);
   line.s_min = line.runs.front().first;
   line.s_max = line.runs.back().second;
 }
@@ -312,38 +295,46 @@ std::vector<int> fitToSupport(const std::vector<WallPoint>& points,
                               const std::vector<int>& candidates, const WallScale& scale,
                               const SupportOptions& options, WallLine& line) {
   const bool free = options.fit_direction;
-  std::vector<int> support;
-  std::vector<int> pool = candidates;
-  double cut = 0.0;
+  LinePoints support;
+  LinePoints pool(points, candidates, line);
   for (const double gate : kGates) {
-    cut = gate * scale.noise;
-    const std::vector<int> near = withinGate(points, pool, line, cut);
-    support = inFullCells(points, near, scale, line);
-    if (options.steps.setbacks) support = atMainHeights(points, support, scale, line);
-    if (options.steps.main_tiles)
-      support = inMainTiles(points, support, scale, line, gate < kSettled);
+    const double cut = gate * scale.noise;
+    support = inFullCells(pool.within(cut), scale);
+    if (options.steps.setbacks) support = atMainHeights(std::move(support), scale.noise);
+    if (options.steps.main_tiles) {
+      support = inMainTiles(std::move(support), scale, gate < kSettled);
+    }
     if (support.empty()) return {};
-    fitLine(points, support, cut, free, line);
-    if (!options.steps.flatness) continue;
-    std::vector<int> flat = flatPart(points, support, scale, options, line);
-    if (flat.empty()) return {};
-    if (flat.size() == support.size()) continue;
-    support = std::move(flat);
-    if (free) pool = support;  // what was cut off must not turn the line again
-    fitLine(points, support, cut, free, line);
+    fitLine(support, cut, free, line);
+    if (options.steps.flatness) {
+      const std::size_t size = support.size();
+      support = flatPart(points, std::move(support), scale, options, line);
+      if (support.empty()) return {};
+      const bool cut_off = support.size() < size;
+      if (cut_off) fitLine(support, cut, free, line);
+      if (cut_off && free) {
+        pool = support;  // what was cut off must not turn the line again
+        continue;
+      }
+    }
+    pool.moveTo(line);
   }
   if (options.steps.flatness) {
+    const double cut = kGates[std::size(kGates) - 1] * scale.noise;
     if (free) {
-      describeSupport(points, support, scale, line);
+      describeSupport(support, scale, line);
       if (line.support_area < options.min_area) return {};  // clutter would only grow into a wall
     }
     support = free ? grownAlong(points, candidates, cut, scale, options, line)
-                   : endedAlong(points, support, cut, scale, line);
+                   : endedAlong(points, std::move(support), cut, scale, line);
     if (support.empty()) return {};
   }
-  if (options.steps.surface_test && !isSurface(points, support, candidates, scale, line)) return {};
-  describeSupport(points, support, scale, line);
-  return support;
+  if (options.steps.surface_test &&
+      !isSurface(support, LinePoints(points, candidates, line), scale)) {
+    return {};
+  }
+  describeSupport(support, scale, line);
+  return std::move(support.number);
 }
 
 }  // namespace storey::detail

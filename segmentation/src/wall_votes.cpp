@@ -19,11 +19,12 @@ int degreeOf(double angle) {
 // Points by the direction of their normals, whole degree by degree: those that vote for a row are
 // together.
 struct Ballots {
-  std::vector<WallPoint> points;
+  std::vector<Eigen::Vector2d> positions;
+  std::vector<Eigen::Vector2d> normals;
   std::vector<std::size_t> first;  // of each degree
 
   Ballots(const std::vector<WallPoint>& all, const std::vector<int>& numbers)
-      : points(numbers.size()), first(kDegrees + 1, 0) {
+      : positions(numbers.size()), normals(numbers.size()), first(kDegrees + 1, 0) {
     std::vector<int> degrees;
     degrees.reserve(numbers.size());
     for (const int i : numbers) {
@@ -34,8 +35,10 @@ struct Ballots {
     for (std::size_t d = 0; d < kDegrees; ++d) first[d + 1] += first[d];
     std::vector<std::size_t> next = first;
     for (std::size_t k = 0; k < numbers.size(); ++k) {
-      points[next[static_cast<std::size_t>(degrees[k])]++] =
-          all[static_cast<std::size_t>(numbers[k])];
+      const WallPoint& p = all[static_cast<std::size_t>(numbers[k])];
+      const std::size_t place = next[static_cast<std::size_t>(degrees[k])]++;
+      positions[place] = p.position;
+      normals[place] = p.normal;
     }
   }
 
@@ -56,7 +59,12 @@ struct Ballots {
 
 VoteTable::VoteTable(const std::vector<WallPoint>& points, std::vector<double> angles, double bin,
                      int window, unsigned int threads)
-    : points_(points), angles_(std::move(angles)), bin_(bin), window_(window), threads_(threads) {
+    : points_(points),
+      angles_(std::move(angles)),
+      bin_(bin),
+      bins_per_length_(1.0 / bin),
+      window_(window),
+      threads_(threads) {
   double squared = 0.0;
   for (const WallPoint& p : points) squared = std::max(squared, p.position.squaredNorm());
   const double radius = std::sqrt(squared);
@@ -80,9 +88,8 @@ void VoteTable::vote(const std::vector<int>& numbers, int amount) {
     int* row = votes_.data() + a * static_cast<std::size_t>(bins_);
     ballots.forEachRange(angles_[a], [&](std::size_t from, std::size_t to, bool sure) {
       for (std::size_t i = from; i < to; ++i) {
-        const WallPoint& p = ballots.points[i];
-        if (!sure && normal.dot(p.normal) < least) continue;
-        row[binOf(normal.dot(p.position))] += amount;
+        if (!sure && normal.dot(ballots.normals[i]) < least) continue;
+        row[binOf(normal.dot(ballots.positions[i]))] += amount;
       }
       changed_[a] = 1;
     });

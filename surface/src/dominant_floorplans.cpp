@@ -2,10 +2,15 @@
 #include <storey/surface/dominant_floorplans.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace storey {
 namespace {
+
+// Of thin slices nearly every one has a floorplan of its own, and to try them all as types takes
+// time by the cube of their number.
+constexpr std::size_t kMostRuns = 64;
 
 // The candidates: floorplans at distance 0 are one type, represented by the first of them.
 struct Candidates {
@@ -28,6 +33,47 @@ Candidates findCandidates(const FloorplanGrammar& grammar, std::size_t num_plans
     candidates.share[t] += 1.0 / static_cast<double>(num_plans);
   }
   return candidates;
+}
+
+// Which of the candidates from `begin` to `end` has the least sum of distances to the floorplans
+// there and as far again to either side.
+std::size_t nearestToAll(const FloorplanGrammar& grammar, const Candidates& candidates,
+                         std::size_t begin, std::size_t end, std::size_t num_plans) {
+  const std::size_t first = candidates.representative[begin];
+  const std::size_t last = candidates.representative[end - 1];
+  const std::size_t margin = last - first + 1;
+  const std::size_t to = std::min(num_plans, last + margin + 1);
+  std::size_t nearest = begin;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t t = begin; t < end; ++t) {
+    double sum = 0.0;
+    for (std::size_t i = first > margin ? first - margin : 0; i < to; ++i) {
+      sum += grammar.distance(candidates.representative[t], i);
+    }
+    if (sum >= least) continue;
+    least = sum;
+    nearest = t;
+  }
+  return nearest;
+}
+
+// Of too many candidates one of each run of neighbours, and those that many floorplans equal.
+Candidates standingForAll(const FloorplanGrammar& grammar, const Candidates& all,
+                          std::size_t num_plans) {
+  const std::size_t count = all.representative.size();
+  if (count <= kMostRuns) return all;
+  Candidates chosen;
+  for (std::size_t run = 0; run < kMostRuns; ++run) {
+    const std::size_t begin = run * count / kMostRuns;
+    const std::size_t end = (run + 1) * count / kMostRuns;
+    const std::size_t nearest = nearestToAll(grammar, all, begin, end, num_plans);
+    for (std::size_t t = begin; t < end; ++t) {
+      if (t != nearest && all.share[t] * kMostRuns < 1.0) continue;
+      chosen.representative.push_back(all.representative[t]);
+      chosen.share.push_back(all.share[t]);
+    }
+  }
+  return chosen;
 }
 
 LayerEnergy buildEnergy(const FloorplanGrammar& grammar, const Candidates& candidates,
@@ -88,7 +134,8 @@ DominantFloorplans selectDominantFloorplans(const std::vector<FloorplanLayer>& s
   grammar.setLengthTolerance(options.length_tolerance);
   if (!grammar.encode(plans)) return result;
   result.dictionary_size = grammar.getDictionarySize();
-  const Candidates candidates = findCandidates(grammar, plans.size());
+  const Candidates candidates =
+      standingForAll(grammar, findCandidates(grammar, plans.size()), plans.size());
   result.num_candidates = static_cast<int>(candidates.representative.size());
   const LayerEnergy energy = buildEnergy(grammar, candidates, plans.size(), options);
   result.labeling = options.exact ? minimizeLayerEnergy(energy) : expandLayerLabels(energy);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/console/print.h>
+#include <storey/filters/detail/threads.h>
 #include <storey/surface/detail/level_evidence.h>
 
 #include <algorithm>
@@ -43,9 +44,11 @@ std::vector<HeightFit> applyLevels(std::vector<FloorplanLayer>& layers,
 
 std::vector<HeightFit> fitLevels(const std::vector<detail::LevelEvidence>& evidence,
                                  const FitOptions& options, double tails) {
-  std::vector<HeightFit> levels;
-  for (const detail::LevelEvidence& level : evidence) {
-    levels.push_back(detail::fitLevel(level, options.noise, options.max_shift, tails));
+  std::vector<HeightFit> levels(evidence.size());
+#pragma omp parallel for num_threads(detail::threadsFor(options.threads)) schedule(dynamic, 1)
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(levels.size()); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    levels[k] = detail::fitLevel(evidence[k], options.noise, options.max_shift, tails);
   }
   return levels;
 }

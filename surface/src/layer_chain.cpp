@@ -82,7 +82,7 @@ std::size_t countLabels(const std::vector<int>& labels) {
 }
 
 std::size_t workLimit(const LayerEnergy& energy, std::size_t max_work) {
-  constexpr double kSteps = 2e8;  // some ten seconds, a step being a label of a node
+  constexpr double kSteps = 1e7;  // half a second or so, a step being a label of a node
   if (max_work > 0) return max_work;
   const auto steps = static_cast<double>(energy.num_nodes * energy.num_labels);
   return static_cast<std::size_t>(std::clamp(kSteps / steps, 200.0, 20000.0));

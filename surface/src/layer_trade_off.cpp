@@ -30,6 +30,11 @@ class PriceSearch {
   const LayerLabeling& within() const { return within_; }
 
   double run() {
+    if (limit_ == 1) {  // all of them were tried
+      within_.lower_bound = within_.energy;
+      within_.optimal = true;
+      return 0.0;
+    }
     double price = 0.0;
     std::vector<int> beyond = solve(price);
     while (countLabels(beyond) > limit_) {

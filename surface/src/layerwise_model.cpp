@@ -13,6 +13,7 @@ namespace {
 
 // A boundary lies in the slice that straddles it or in one of its neighbours.
 constexpr double kHeightSearchInSlices = 1.5;
+constexpr int kFirstRounds = 2;         // without panes, which are looked for afterwards
 constexpr double kMaxNoiseRatio = 2.0;  // of the walls' residual to the noise they were found with
 
 // The noise that the walls show: the residual of the wall in the middle, counted by points.
@@ -48,6 +49,14 @@ void setUpright(const Eigen::Isometry3d& upright, unsigned int threads, FitPoint
   detail::forEachChunk(points.positions.size(), threads, work);
 }
 
+// Walls and heights well enough that each point is given to the wall and the layer that it is of.
+void fitFirst(const FitPoints& points, FitOptions options, std::vector<FloorplanLayer>& layers) {
+  options.rounds = kFirstRounds;
+  options.find_panes = false;
+  fitWalls(layers, points, options);
+  fitHeights(layers, points, options);
+}
+
 // Walls and heights of the blocks, the solid, its checks.
 void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, LayerwiseModel& result) {
   std::vector<FloorplanLayer> layers = result.dominant.blocks;
@@ -58,8 +67,7 @@ void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, Layer
   fit.find_panes = options.steps.panes;
   fit.max_shift = kHeightSearchInSlices * options.slice_thickness;
   fit.threads = options.threads;
-  fitWalls(layers, points, fit);
-  fitHeights(layers, points, fit);
+  fitFirst(points, fit, layers);
   if (options.steps.upright)
     result.upright = fitUpright(layers, points, options.noise, options.threads);
   setUpright(result.upright, options.threads, points);

@@ -2,6 +2,7 @@
 #include <storey/surface/detail/level_evidence.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -22,8 +23,44 @@ constexpr double kClearTails = 4.0;  // deviations: tails that are really there
 constexpr double kMaxTails = 0.3;
 constexpr double kInvSqrt2Pi = 0.3989422804014327;
 
-double normalStep(double u) { return 0.5 * std::erfc(-u * M_SQRT1_2); }
 double bellAt(double u) { return kInvSqrt2Pi * std::exp(-0.5 * u * u); }
+
+// The normal distribution function, by cubics between 4096 places: exact to 1e-11.
+class NormalSteps {
+ public:
+  NormalSteps() {
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      const double u = static_cast<double>(i) * kWidth - kFar;
+      values_[i] = 0.5 * std::erfc(-u * M_SQRT1_2);
+      slopes_[i] = kWidth * bellAt(u);
+    }
+  }
+
+  double operator()(double u) const {
+    if (!(u > -kFar)) return 0.0;
+    if (u >= kFar) return 1.0;
+    const double place = (u + kFar) / kWidth;
+    const auto i = static_cast<std::size_t>(place);
+    const double t = place - static_cast<double>(i);
+    const double rise = values_[i + 1] - values_[i];
+    const double from = slopes_[i] - rise;
+    const double to = rise - slopes_[i + 1];
+    return values_[i] + t * (rise + (1.0 - t) * ((1.0 - t) * from + t * to));
+  }
+
+ private:
+  static constexpr double kFar = 8.0;  // beyond, it is 0 or 1 to 1e-15
+  static constexpr std::size_t kPlaces = 4096;
+  static constexpr double kWidth = 2.0 * kFar / kPlaces;
+
+  std::array<double, kPlaces + 1> values_;
+  std::array<double, kPlaces + 1> slopes_;
+};
+
+double normalStep(double u) {
+  static const NormalSteps steps;
+  return steps(u);
+}
 
 // The integral of the step's tail beyond u.
 double beyondStep(double u) { return bellAt(u) - u * normalStep(-u); }

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <utility>
 
 namespace storey::detail {
 namespace {
 
-constexpr double kMinTurn = 0.03;  // rad; lines that cross at less have no stable corner
+constexpr double kMinTurn = 0.03;  // rad; where lines cross at less is not well known
 
 struct Line {
   Eigen::Vector2d normal;
@@ -24,22 +25,33 @@ Line lineOf(const FloorplanRing& ring, std::size_t i, const std::map<int, WallFi
   return {normal, normal.dot(ring.vertices[i])};
 }
 
-// Corners to the intersections of the edges' lines; false if some of them have none.
-bool intersect(const FloorplanRing& ring, const std::vector<Line>& lines, FloorplanRing& moved) {
-  const std::size_t n = ring.size();
-  moved = ring;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto& [n1, d1] = lines[(i + n - 1) % n];
-    const auto& [n2, d2] = lines[i];
-    const double det = n1.x() * n2.y() - n1.y() * n2.x();
-    if (std::abs(det) < std::sin(kMinTurn)) return false;
-    moved.vertices[i] = {(d1 * n2.y() - d2 * n1.y()) / det, (n1.x() * d2 - n2.x() * d1) / det};
-  }
-  return true;
-}
-
 double lengthOf(const FloorplanRing& ring, std::size_t i) {
   return (ring.vertices[(i + 1) % ring.size()] - ring.vertices[i]).norm();
+}
+
+// Corners to the intersections of the edges' lines. Lines that hardly turn may cross anywhere:
+// where that is further away than the shorter of the two edges is long, the corner stays beside the
+// other one's line, and the shorter edge is of no wall any more.
+FloorplanRing intersect(const FloorplanRing& ring, const std::vector<Line>& lines) {
+  const std::size_t n = ring.size();
+  FloorplanRing moved = ring;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t before = (i + n - 1) % n;
+    const auto& [n1, d1] = lines[before];
+    const auto& [n2, d2] = lines[i];
+    const double det = n1.x() * n2.y() - n1.y() * n2.x();
+    Eigen::Vector2d& corner = moved.vertices[i];
+    corner = {(d1 * n2.y() - d2 * n1.y()) / det, (n1.x() * d2 - n2.x() * d1) / det};
+    if (std::abs(det) > std::sin(kMinTurn)) continue;
+    const Eigen::Vector2d& old = ring.vertices[i];
+    const bool first_longer = lengthOf(ring, before) > lengthOf(ring, i);
+    const std::size_t shorter = first_longer ? i : before;
+    if ((corner - old).norm() < lengthOf(ring, shorter)) continue;
+    const Line& longer = first_longer ? lines[before] : lines[i];
+    corner = old - (longer.normal.dot(old) - longer.offset) * longer.normal;
+    moved.edges[shorter].wall = -1;
+  }
+  return moved;
 }
 
 // The shortest edge that runs the other way in the moved ring; the number of edges if there is
@@ -56,6 +68,12 @@ std::size_t shortestTurned(const FloorplanRing& ring, const FloorplanRing& moved
   return shortest;
 }
 
+std::size_t shortestOf(const FloorplanRing& ring, std::initializer_list<std::size_t> edges) {
+  return *std::min_element(edges.begin(), edges.end(), [&](std::size_t a, std::size_t b) {
+    return lengthOf(ring, a) < lengthOf(ring, b);
+  });
+}
+
 // Takes the edge away: its neighbours meet, wherever their lines do.
 void remove(std::size_t edge, FloorplanRing& ring, std::vector<Line>& lines) {
   const auto i = static_cast<std::ptrdiff_t>(edge);
@@ -64,43 +82,22 @@ void remove(std::size_t edge, FloorplanRing& ring, std::vector<Line>& lines) {
   lines.erase(lines.begin() + i);
 }
 
-// Without the shorter of two edges that go on from each other in nearly the same line: what crosses
-// so flatly has no stable corner.
-void straighten(FloorplanRing& ring, std::vector<Line>& lines) {
-  for (std::size_t i = 0; i < ring.size() && ring.size() > 3;) {
-    const std::size_t before = (i + ring.size() - 1) % ring.size();
-    const Eigen::Vector2d& a = lines[before].normal;
-    const Eigen::Vector2d& b = lines[i].normal;
-    const bool flat = std::abs(a.x() * b.y() - a.y() * b.x()) < std::sin(kMinTurn);
-    if (!flat || a.dot(b) < 0.0) {
-      ++i;
-      continue;
-    }
-    remove(lengthOf(ring, before) < lengthOf(ring, i) ? before : i, ring, lines);
-    i = 0;
-  }
-}
-
 // \return false if there is no such ring
 bool moveCorners(FloorplanRing& ring, const std::map<int, WallFit>& fits) {
   std::vector<Line> lines;
   for (std::size_t i = 0; i < ring.size(); ++i) lines.push_back(lineOf(ring, i, fits));
   FloorplanRing tried = ring;
-  straighten(tried, lines);
-  FloorplanRing moved;
-  while (intersect(tried, lines, moved)) {
+  while (true) {
+    FloorplanRing moved = intersect(tried, lines);
     const std::size_t n = tried.size();
     const std::size_t edge = shortestTurned(tried, moved);
     if (edge == n) {
       ring = std::move(moved);
       return true;
     }
-    const double neighbours =
-        std::min(lengthOf(tried, (edge + 1) % n), lengthOf(tried, (edge + n - 1) % n));
-    if (n <= 3 || lengthOf(tried, edge) > neighbours) return false;
-    remove(edge, tried, lines);
+    if (n <= 3) return false;
+    remove(shortestOf(tried, {edge, (edge + 1) % n, (edge + n - 1) % n}), tried, lines);
   }
-  return false;
 }
 
 void moveOrRelease(FloorplanRing& ring, const std::map<int, WallFit>& fits) {

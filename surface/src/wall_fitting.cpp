@@ -12,7 +12,6 @@
 namespace storey {
 namespace {
 
-constexpr int kRounds = 3;      // assignment and fit settle in two
 constexpr double kTukey = 6.0;  // noise deviations
 // Tukey's weights w of k = 6 shrink the scatter of a normal distribution:
 // sqrt(E[w u^2] / E[w]) = sqrt((1 - 6 / k^2 + 15 / k^4) / (1 - 2 / k^2 + 3 / k^4)).
@@ -137,7 +136,7 @@ void findPanes(const AssignedPoints& points, double noise, Walls& walls) {
     seen.push_back(&walls[k]);
     histograms.push_back(residuals[k].histogram);
   }
-  const std::vector<detail::WallPanes> all_panes = detail::fitPanes(histograms);
+  const std::vector<detail::WallPanes> all_panes = detail::fitPanes(histograms, points.threads);
   for (std::size_t k = 0; k < all_panes.size(); ++k) seen[k]->panes = all_panes[k];
 }
 
@@ -275,7 +274,7 @@ std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPo
     return {};
   }
   std::map<int, WallFit> fits;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < options.rounds; ++round) {
     Walls walls = wallsOf(layers);
     const AssignedPoints assigned{
         points, detail::WallAssignment(layers, options.noise).wallsOf(points, options.threads),

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/threads.h>
 #include <storey/surface/detail/wall_panes.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
 namespace storey::detail {
 namespace {
@@ -256,16 +259,21 @@ WallPanes::Expected WallPanes::expected(double residual) const {
   return {own / parts.sum(), residual + depth * parts.pane / own};
 }
 
-std::vector<WallPanes> fitPanes(const std::vector<ResidualHistogram>& walls) {
+std::vector<WallPanes> fitPanes(const std::vector<ResidualHistogram>& walls, unsigned int threads) {
   if (walls.empty()) return {};
   std::vector<WallPanes> alone(walls.size());
   std::vector<double> likelihoods;
   for (std::size_t k = 0; k < walls.size(); ++k) {
     likelihoods.push_back(fitNormal(walls[k], alone[k]));
   }
+  std::array<Building, std::size(kStartDepths)> buildings;
+#pragma omp parallel for num_threads(threadsFor(threads)) schedule(dynamic, 1)
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(buildings.size()); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    buildings[k] = fitFrom(walls, alone, kStartDepths[k]);
+  }
   Building best;
-  for (const double depth : kStartDepths) {
-    Building building = fitFrom(walls, alone, depth);
+  for (Building& building : buildings) {
     if (best.walls.empty() || building.likelihood() > best.likelihood()) best = std::move(building);
   }
   // Walls that are rough in their own way must not blur what the others have in common.

@@ -4,7 +4,7 @@
 #include <storey/filters/detail/neighbor_search.h>
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -13,6 +13,7 @@
 namespace {
 
 using storey::detail::DistinctPositions;
+using storey::detail::MomentBatch;
 using storey::detail::Neighborhood;
 using storey::detail::NeighborSearch;
 using Positions = std::vector<Eigen::Vector3f>;
@@ -63,21 +64,55 @@ pcl::Indices bruteForce(const pcl::PointCloud<pcl::PointXYZ>& cloud, std::size_t
   return ids;
 }
 
+// First and second moments of some positions about one of them, added in double.
+std::array<double, 9> momentsAbout(const pcl::PointCloud<pcl::PointXYZ>& cloud, std::size_t origin,
+                                   const pcl::Indices& ids) {
+  std::array<double, 9> sums{};
+  for (const pcl::index_t id : ids) {
+    const Eigen::Vector3d d = cloud[static_cast<std::size_t>(id)].getVector3fMap().cast<double>() -
+                              cloud[origin].getVector3fMap().cast<double>();
+    const std::array<double, 9> terms = {d.x(),         d.y(),         d.z(),
+                                         d.x() * d.x(), d.x() * d.y(), d.x() * d.z(),
+                                         d.y() * d.y(), d.y() * d.z(), d.z() * d.z()};
+    for (std::size_t s = 0; s < 9; ++s) sums[s] += terms[s];
+  }
+  return sums;
+}
+
+// A sum of k terms is off by less than k 2^-53 of the sum of their sizes, which for the products is
+// their trace at most, and for the sums the root of k times that.
+void expectMoments(const MomentBatch& batch, std::size_t lane,
+                   const std::array<double, 9>& expected) {
+  const auto k = static_cast<double>(batch.count);
+  const double trace = expected[3] + expected[6] + expected[8];
+  for (std::size_t s = 0; s < 9; ++s) {
+    const double size = s < 3 ? std::sqrt(k * trace) : trace;
+    ASSERT_NEAR(batch.moments[s][lane], expected[s], (k + 3.0) * std::ldexp(1.0, -53) * size);
+  }
+}
+
 void expectExact(const Positions& positions, std::size_t k) {
   const DistinctPositions distinct = storey::detail::findDistinctPositions(positions);
+  const pcl::PointCloud<pcl::PointXYZ>& cloud = *distinct.cloud;
   const NeighborSearch search(distinct.cloud);
-  const std::vector<char> all(distinct.cloud->size(), 1);
-  std::vector<pcl::Indices> found(distinct.cloud->size());
-  search.forEach(k, all, 2, [&](const Neighborhood& n) {
-    found[static_cast<std::size_t>(n.id)].assign(n.ids, n.ids + n.count);
-  });
+  std::vector<pcl::Indices> nearest(cloud.size());
   NeighborSearch::Workspace workspace;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const pcl::Indices expected = bruteForce(*distinct.cloud, i, k);
-    ASSERT_EQ(found[i], expected) << "position " << i << ", k " << k;
-    const Neighborhood alone = search.nearest(static_cast<pcl::index_t>(i), k, workspace);
-    ASSERT_EQ(pcl::Indices(alone.ids, alone.ids + alone.count), expected) << i;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    nearest[i] = bruteForce(cloud, i, k);
+    const Neighborhood found = search.nearest(static_cast<pcl::index_t>(i), k, workspace);
+    ASSERT_EQ(pcl::Indices(found.ids, found.ids + found.count), nearest[i]) << i << ", k " << k;
   }
+  std::vector<int> visits(cloud.size(), 0);
+  search.forEachMoments(k, std::vector<char>(cloud.size(), 1), 2, [&](const MomentBatch& batch) {
+    for (std::size_t lane = 0; lane < storey::detail::kLanes; ++lane) {
+      if (batch.ids[lane] < 0) continue;
+      const auto id = static_cast<std::size_t>(batch.ids[lane]);
+      ++visits[id];
+      const std::size_t origin = k < cloud.size() ? id : 0;
+      expectMoments(batch, lane, momentsAbout(cloud, origin, nearest[id]));
+    }
+  });
+  EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), static_cast<long>(cloud.size()));
 }
 
 TEST(NeighborSearch, IsExactWhereDensitiesDifferAThousandfold) {
@@ -98,45 +133,33 @@ TEST(NeighborSearch, TakesAllWhereThereAreFewer) {
 
 TEST(NeighborSearch, VisitsNothingWithoutPositions) {
   const NeighborSearch search(pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>());
-  search.forEach(30, {}, 1, [](const Neighborhood&) { FAIL(); });
+  search.forEachMoments(30, {}, 1, [](const MomentBatch&) { FAIL(); });
 }
 
-TEST(NeighborSearch, VisitsTheWantedOnly) {
+// Whatever positions are searched together, and by how many threads: the same bytes for each.
+TEST(NeighborSearch, VisitsTheWantedWithTheSameMomentsInAnyCompany) {
   const DistinctPositions distinct = storey::detail::findDistinctPositions(makeUneven());
-  std::vector<char> wanted(distinct.cloud->size(), 0);
-  for (std::size_t i = 0; i < wanted.size(); i += 7) wanted[i] = 1;
-  std::atomic<int> visits{0};
-  NeighborSearch(distinct.cloud).forEach(30, wanted, 2, [&](const Neighborhood& n) {
-    EXPECT_EQ(n.id % 7, 0);
-    ++visits;
-  });
-  EXPECT_EQ(visits, std::count(wanted.begin(), wanted.end(), 1));
-}
-
-// Against sums in the plain order of the neighbours, about the same origin.
-TEST(NeighborSearch, SumsMomentsAboutTheFirst) {
-  const DistinctPositions distinct = storey::detail::findDistinctPositions(makeUneven());
-  NeighborSearch::Workspace workspace;
-  const Neighborhood n = NeighborSearch(distinct.cloud).nearest(100, 30, workspace);
-  const auto at = [&](pcl::index_t id) -> Eigen::Vector3d {
-    return (*distinct.cloud)[static_cast<std::size_t>(id)].getVector3fMap().cast<double>();
+  const NeighborSearch search(distinct.cloud);
+  using Sums = std::array<double, 9>;
+  const auto momentsOf = [&](std::size_t step, unsigned int threads) {
+    std::vector<char> wanted(distinct.cloud->size(), 0);
+    for (std::size_t i = 0; i < wanted.size(); i += step) wanted[i] = 1;
+    std::vector<Sums> found(wanted.size());
+    search.forEachMoments(30, wanted, threads, [&](const MomentBatch& batch) {
+      for (std::size_t lane = 0; lane < storey::detail::kLanes; ++lane) {
+        if (batch.ids[lane] < 0) continue;
+        for (std::size_t s = 0; s < 9; ++s) {
+          found[static_cast<std::size_t>(batch.ids[lane])][s] = batch.moments[s][lane];
+        }
+      }
+    });
+    return found;
   };
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < n.count; ++i) {
-    const Eigen::Vector3d d = at(n.ids[i]) - at(n.ids[0]);
-    sum += d;
-    products += d * d.transpose();
-  }
-  const storey::detail::Moments moments = n.moments();
-  EXPECT_EQ(moments.count, 30.0);
-  const double scale = products.trace();
-  const std::pair<int, int> places[] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(moments.sum[i], sum[static_cast<int>(i)], 1e-14 * sum.norm());
-  }
-  for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_NEAR(moments.products[i], products(places[i].first, places[i].second), 1e-14 * scale);
+  const std::vector<Sums> all = momentsOf(1, 1);
+  EXPECT_EQ(momentsOf(1, 3), all);
+  const std::vector<Sums> some = momentsOf(7, 2);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(some[i], i % 7 == 0 ? all[i] : Sums{}) << i;
   }
 }
 

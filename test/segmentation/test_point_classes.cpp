@@ -6,23 +6,13 @@
 #include <cmath>
 #include <vector>
 
+#include "faces.h"
+
 namespace storey::detail {
 namespace {
 
 const WallScale kScale{0.05, 100.0};
 constexpr double kLeastWall = 1.0;
-
-// A face of points 0.1 apart over a x b from a corner.
-void addFace(std::vector<OrientedPoint>& points, const Eigen::Vector3d& corner,
-             const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const Eigen::Vector3d normal = a.cross(b).normalized();
-  for (double s = 0.05; s < a.norm(); s += 0.1) {
-    for (double t = 0.05; t < b.norm(); t += 0.1) {
-      const Eigen::Vector3d place = corner + s * a.normalized() + t * b.normalized();
-      points.push_back({place.cast<float>(), normal.cast<float>()});
-    }
-  }
-}
 
 std::vector<PointClass> classesOf(const std::vector<OrientedPoint>& points) {
   return classifyPoints(points, std::vector<char>(points.size(), 1), kScale, kLeastWall);
@@ -61,6 +51,32 @@ TEST(PointClasses, SmallGroupsBehindAGapAreApart) {
   EXPECT_TRUE(allAre(classes, 0, wall, PointClass::Wall));
   EXPECT_TRUE(allAre(classes, wall, car, PointClass::Apart));
   EXPECT_TRUE(allAre(classes, car, points.size(), PointClass::Wall));
+}
+
+TEST(PointClasses, CrownsOfTreesAreSmall) {
+  // What lies within 30 degrees of a plane's normal on a ball of radius 1.5 is a cap of 1.9, with
+  // the cells that its rim cuts less than 5.
+  constexpr double kRadius = 1.5;
+  constexpr double kLeast = 6.0;
+  std::vector<OrientedPoint> points;
+  addFace(points, {0, 0, 0}, {8, 0, 0}, {0, 0, 8});
+  addFace(points, {2, -0.3, 4}, {1, 0, 0}, {0, 0, 1});  // a shutter in front of the wall
+  const std::size_t shutter = points.size();
+  addFace(points, {0, -9, 0}, {8, 0, 0}, {0, 8, 0});
+  const std::size_t ground = points.size();
+  constexpr int kOnBall = 3000;
+  for (int i = 0; i < kOnBall; ++i) {  // a Fibonacci lattice
+    const double z = 1.0 - (2.0 * i + 1.0) / kOnBall;
+    const double turn = i * M_PI * (3.0 - std::sqrt(5.0));
+    const Eigen::Vector3d normal(std::sqrt(1.0 - z * z) * std::cos(turn),
+                                 std::sqrt(1.0 - z * z) * std::sin(turn), z);
+    const Eigen::Vector3d place = Eigen::Vector3d(4.0, -6.0, 5.0) + kRadius * normal;
+    points.push_back({place.cast<float>(), normal.cast<float>()});
+  }
+  const auto classes = classifyPoints(points, std::vector<char>(points.size(), 1), kScale, kLeast);
+  EXPECT_TRUE(allAre(classes, 0, shutter, PointClass::Wall));
+  EXPECT_TRUE(allAre(classes, shutter, ground, PointClass::Ground));
+  EXPECT_TRUE(allAre(classes, ground, points.size(), PointClass::Small));
 }
 
 TEST(PointClasses, WhatIsNotPlanarStaysSo) {

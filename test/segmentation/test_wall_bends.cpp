@@ -11,6 +11,7 @@ namespace {
 
 using namespace storey;
 using namespace storey::test;
+using detail::LinePoints;
 using detail::onOneSideOfBend;
 
 constexpr double kTurn = 0.3;   // rad, 17 degrees
@@ -25,6 +26,10 @@ struct TwoWalls {
   std::vector<int> support;
 
   TwoWalls() { line.normal = {0.0, -1.0}; }
+
+  std::vector<int> keptSide() const {
+    return onOneSideOfBend(points, LinePoints(points, support, line), scale, line).number;
+  }
 
   void takeAll() {
     support.resize(points.size());
@@ -46,8 +51,7 @@ TwoWalls bentBy(double turn) {
 TEST(OnOneSideOfBend, LeavesTheOtherWallOut) {
   for (const double turn : {kTurn, -kTurn}) {
     const TwoWalls walls = bentBy(turn);
-    const std::vector<int> kept =
-        onOneSideOfBend(walls.points, walls.support, walls.scale, walls.line);
+    const std::vector<int> kept = walls.keptSide();
     double last = 0.0;
     for (const int i : kept)
       last = std::max(last, walls.points[static_cast<std::size_t>(i)].position.x());
@@ -60,7 +64,7 @@ TEST(OnOneSideOfBend, LeavesTheOtherWallOut) {
 
 TEST(OnOneSideOfBend, KeepsAStraightWall) {
   const TwoWalls walls = bentBy(0.0);
-  EXPECT_EQ(onOneSideOfBend(walls.points, walls.support, walls.scale, walls.line), walls.support);
+  EXPECT_EQ(walls.keptSide(), walls.support);
 }
 
 TEST(OnOneSideOfBend, KeepsAWallWithPanes) {
@@ -73,7 +77,7 @@ TEST(OnOneSideOfBend, KeepsAWallWithPanes) {
   addWall(Eigen::Vector2d(4.0, 0.0) + back, Eigen::Vector2d(6.0, 0.0) + back, walls.sampling,
           random, walls.points);
   walls.takeAll();
-  EXPECT_EQ(onOneSideOfBend(walls.points, walls.support, walls.scale, walls.line), walls.support);
+  EXPECT_EQ(walls.keptSide(), walls.support);
 }
 
 }  // namespace

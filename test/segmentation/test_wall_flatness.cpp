@@ -34,6 +34,10 @@ WallLine facade() {
   return line;
 }
 
+std::vector<int> mainOf(const std::vector<WallPoint>& points) {
+  return atMainHeights({points, allOf(points), facade()}, 0.05).number;
+}
+
 TEST(MainHeights, AreThoseOfTheTallerOfTwoStoreys) {
   for (const double setback : {-3.0, -2.0, 2.0, 3.0}) {
     std::mt19937 random(1);
@@ -41,7 +45,7 @@ TEST(MainHeights, AreThoseOfTheTallerOfTwoStoreys) {
     addStorey(0.0, storey(0.0, 6.0), random, points);
     const auto of_lower = static_cast<int>(points.size());
     addStorey(setback, storey(6.0, 10.0), random, points);
-    const auto kept = atMainHeights(points, allOf(points), {0.05, 40.0}, facade());
+    const auto kept = mainOf(points);
     // Levels of height are a 48th of all: one of them may be of both storeys.
     const auto wrong =
         std::count_if(kept.begin(), kept.end(), [&](const int i) { return i >= of_lower; });
@@ -58,7 +62,7 @@ TEST(MainHeights, AreTheMiddleStoreyIfItIsTheTallest) {
   addStorey(2.5, storey(0.0, 2.0), random, points);
   addStorey(0.0, storey(2.0, 9.0), random, points);
   addStorey(-2.5, storey(9.0, 12.0), random, points);
-  for (const int i : atMainHeights(points, allOf(points), {0.05, 40.0}, facade())) {
+  for (const int i : mainOf(points)) {
     EXPECT_GT(points[static_cast<std::size_t>(i)].z, 2.0 - 12.0 / 48);
     EXPECT_LT(points[static_cast<std::size_t>(i)].z, 9.0 + 12.0 / 48);
   }
@@ -69,9 +73,9 @@ TEST(MainHeights, AreAllOfAFlatWallOrOneThatLeansWithinItsNoise) {
     std::mt19937 random(seed);
     std::vector<WallPoint> points;
     addStorey(0.0, storey(0.0, 10.0), random, points);
-    EXPECT_EQ(atMainHeights(points, allOf(points), {0.05, 40.0}, facade()).size(), points.size());
+    EXPECT_EQ(mainOf(points).size(), points.size());
     for (WallPoint& p : points) p.position += (p.z / 10.0) * 0.05 * kIn;
-    EXPECT_EQ(atMainHeights(points, allOf(points), {0.05, 40.0}, facade()).size(), points.size());
+    EXPECT_EQ(mainOf(points).size(), points.size());
   }
 }
 
@@ -85,11 +89,9 @@ TEST(MainHeights, IgnoreRowsOfWindows) {
     const bool pane = std::fmod(p.position.x(), 3.0) < 1.2;
     if (strip && pane) p.position += 2.0 * 0.05 * kIn;
   }
-  EXPECT_EQ(atMainHeights(points, allOf(points), {0.05, 40.0}, facade()).size(), points.size());
+  EXPECT_EQ(mainOf(points).size(), points.size());
 }
 
-TEST(MainHeights, OfNothingAreNothing) {
-  EXPECT_TRUE(atMainHeights({}, {}, {0.05, 40.0}, facade()).empty());
-}
+TEST(MainHeights, OfNothingAreNothing) { EXPECT_TRUE(mainOf({}).empty()); }
 
 }  // namespace

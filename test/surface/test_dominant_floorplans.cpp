@@ -81,6 +81,31 @@ TEST(DominantFloorplans, SpoiltSlicesTakeTheTypeOfTheirNeighbours) {
   for (std::size_t i = 0; i < slices.size(); ++i) EXPECT_EQ(found.slice_types[i], i < 10 ? 0 : 1);
 }
 
+// A block with a notch in its long wall, at a place and of a depth of its own.
+Corners notched(double width, std::mt19937& random) {
+  const double y = std::uniform_real_distribution<double>(2.0, 15.0)(random);
+  const double x = width - std::uniform_real_distribution<double>(1.0, 4.0)(random);
+  return {{0, 0}, {width, 0}, {width, y}, {x, y}, {x, y + 3}, {width, y + 3}, {width, 20}, {0, 20}};
+}
+
+TEST(DominantFloorplans, OfManyDifferentSlicesFewStandForAll) {
+  constexpr int kStorey = 60;
+  auto slices = slicesOf({{{box(0, 0, 30, 20)}, kStorey}, {{box(0, 0, 15, 20)}, kStorey}}, 8);
+  std::mt19937 random(9);
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    if (i % 3 == 0) continue;
+    slices[i].plan = noisyPlan({notched(i < kStorey ? 30.0 : 15.0, random)}, 0.0, random);
+  }
+  const DominantFloorplans found = selectDominantFloorplans(slices, options());
+  EXPECT_EQ(found.num_types, 2);
+  ASSERT_EQ(found.blocks.size(), 2U);
+  EXPECT_DOUBLE_EQ(found.blocks[0].z_max, kStorey);
+  EXPECT_EQ(found.blocks[0].plan.components[0].outer.size(), 4U);
+  EXPECT_EQ(found.blocks[1].plan.components[0].outer.size(), 4U);
+  EXPECT_GT(found.num_candidates, 2);
+  EXPECT_LE(found.num_candidates, 66);
+}
+
 TEST(DominantFloorplans, ATypeThatComesBackIsOneType) {
   const DominantFloorplans found =
       selectDominantFloorplans(slicesOf({{{kL}, 8}, {{kTower}, 8}, {{kL}, 8}}, 3), options());

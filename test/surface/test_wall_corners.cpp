@@ -86,13 +86,16 @@ TEST(MoveCorners, DropsTheLastEdgeOfARingAsAnyOther) {
   EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{0, 1, 2, 3}));
 }
 
-TEST(MoveCorners, MakesOneOfEdgesThatGoOnInNearlyTheSameLine) {
-  // The top of the square, its left third turned by 0.01 rad about where the parts meet.
-  const Corners ring = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}, {3.0, 10.0}, {0.0, 10.03}};
+TEST(MoveCorners, DropsAShortEdgeThatTurnsALongerOneAround) {
+  // The short edge from (10, 9) to (10.02, 9.2), moved in by 0.1, would cross x = 10.02 at a height
+  // of 10.2, beyond the top of the edge on that line. Without it that edge is parallel to the
+  // longer one on x = 10, which the corner is put on.
+  const Corners ring = {{0.0, 0.0},   {10.0, 0.0},   {10.0, 9.0},
+                        {10.02, 9.2}, {10.02, 10.0}, {0.0, 10.0}};
   std::vector<FloorplanLayer> layers = layerOf(ring);
-  detail::moveCorners(layers, fitsOf(ring, {0.0, 0.0, 0.0, 0.0, 0.0}));
-  expectCorners(ringOf(layers), kSquare);
-  EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{0, 1, 2, 4}));
+  detail::moveCorners(layers, fitsOf(ring, {0.0, 0.0, -0.1, 0.0, 0.0, 0.0}));
+  expectCorners(ringOf(layers), {{0.0, 0.0}, {10.0, 0.0}, {10.0, 9.2}, {10.02, 10.0}, {0.0, 10.0}});
+  EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{0, 1, -1, 4, 5}));
 }
 
 TEST(MoveCorners, LeavesRingsAloneWhoseLongEdgesWouldTurnAround) {
@@ -103,13 +106,37 @@ TEST(MoveCorners, LeavesRingsAloneWhoseLongEdgesWouldTurnAround) {
   EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{-1, -1, -1, -1}));
 }
 
-TEST(MoveCorners, LeavesRingsAloneWithoutACorner) {
-  // The neighbours of a step are parallel: without it they meet nowhere.
+TEST(MoveCorners, ReleasesTheShorterOfParallelNeighbours) {
+  // Without the step its neighbours are parallel and meet nowhere. The longer one, then from (10,
+  // 10) to (5, 9.9), keeps its line y = 9.8.
   const Corners step = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}, {5.0, 10.0}, {5.0, 9.9}, {0.0, 9.9}};
   std::vector<FloorplanLayer> layers = layerOf(step);
   detail::moveCorners(layers, fitsOf(step, {0.0, 0.0, -0.2, 0.0, 0.0, 0.0}));
-  expectCorners(ringOf(layers), step);
-  EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>(6, -1)));
+  expectCorners(ringOf(layers), {{0.0, 0.0}, {10.0, 0.0}, {10.0, 9.8}, {5.0, 9.8}, {0.0, 9.9}});
+  EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{0, 1, 2, -1, 5}));
+}
+
+// The square, its upper side bent at its middle by a hundredth.
+const Corners kBent = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}, {5.0, 10.05}, {0.0, 10.05}};
+
+TEST(MoveCorners, TakesTheCornerOfABendToTheIntersectionNearby) {
+  // y = 10.05 moved to 10.06 meets the other half, which falls by 0.01 x from (5, 10.05), at x = 4.
+  std::vector<FloorplanLayer> layers = layerOf(kBent);
+  detail::moveCorners(layers, fitsOf(kBent, {0.0, 0.0, 0.0, 0.01, 0.0}));
+  expectCorners(ringOf(layers),
+                {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}, {4.0, 10.06}, {0.0, 10.06}});
+  EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{0, 1, 2, 3, 4}));
+}
+
+TEST(MoveCorners, KeepsTheCornerOfABendWhoseLinesCrossFarAway) {
+  // y = 10.05 moved to 10.15 would meet the other half at x = -5.
+  std::vector<FloorplanLayer> layers = layerOf(kBent);
+  detail::moveCorners(layers, fitsOf(kBent, {0.0, 0.0, 0.0, 0.1, 0.0}));
+  const FloorplanRing& ring = ringOf(layers);
+  EXPECT_EQ(idsOf(ring), (std::vector<int>{0, 1, 2, -1, 4}));
+  ASSERT_EQ(ring.size(), kBent.size());
+  EXPECT_LT((ring.vertices[3] - kBent[3]).norm(), 1e-12);  // it lies on the longer edge's line
+  EXPECT_LT((ring.vertices[4] - Eigen::Vector2d(0.0, 10.15)).norm(), 1e-12);
 }
 
 }  // namespace

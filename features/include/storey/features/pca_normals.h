@@ -29,14 +29,13 @@ std::vector<PcaNormal> estimatePcaNormals(const std::vector<Eigen::Vector3f>& po
 
 /// Estimates a normal for every point of a cloud that has none: the direction of least variance
 /// of its k nearest distinct positions, itself among them, in double precision about the
-/// neighbours' mean. The sign is arbitrary (`OutwardNormalOrientation` sets it), but the same for
-/// the same positions. If the point type has a curvature, it becomes the surface variation
-/// l3 / (l1 + l2 + l3). NaN where the position is not finite or the neighbours span no plane.
-/// \param[in,out] cloud its normals and curvatures are overwritten
-/// \param k >= 3, or 0 (default) for 80 density noise^2 within [16, 200], so that the neighbourhood
-/// is wider than five noises
-/// \param num_threads 0 = all cores; the result does not depend on it
-/// \return the k that was used, 0 after a PCL_ERROR if k is out of range (cloud unchanged)
+/// point. The sign is arbitrary (`OutwardNormalOrientation` sets it), but
+/// the same for the same positions. If the point type has a curvature, it becomes the surface
+/// variation l3 / (l1 + l2 + l3). NaN where the position is not finite or the neighbours span no
+/// plane. \param[in,out] cloud its normals and curvatures are overwritten \param k >= 3, or 0
+/// (default) for 80 density noise^2 within [16, 200], so that the neighbourhood is wider than five
+/// noises \param num_threads 0 = all cores; the result does not depend on it \return the k that was
+/// used, 0 after a PCL_ERROR if k is out of range (cloud unchanged)
 template <typename PointT>
 int estimateNormals(pcl::PointCloud<PointT>& cloud, int k = 0, unsigned int num_threads = 0) {
   if (k != 0 && k < 3) {

@@ -54,7 +54,7 @@ class DominantDirectionClustering : public pcl::PCLBase<PointT> {
   using SearchPtr = typename pcl::search::Search<PointT>::Ptr;
 
   static constexpr int kDefaultNeighbors = 30;  // 15 degrees of noise become 2
-  static constexpr std::size_t kDefaultMaxSamples = 100000;
+  static constexpr std::size_t kDefaultMaxSamples = 20000;
 
   /// Normals, one for each point of the input cloud (not of the indices). Null (default): the
   /// fields of the input cloud, if PointT is NormalT.
@@ -75,7 +75,8 @@ class DominantDirectionClustering : public pcl::PCLBase<PointT> {
   void setSmoothingNeighbors(int k) { smoothing_neighbors_ = k; }
   int getSmoothingNeighbors() const { return smoothing_neighbors_; }
 
-  /// Points whose normals are averaged and clustered; 0 = all, default 100,000. They are chosen
+  /// Points whose normals are averaged and clustered; 0 = all, default 20,000: then the least
+  /// direction, 2 % of them, is the mean of 400 averages good to 3 degrees each. They are chosen
   /// evenly at random (by a hash of position and normal), their neighbours come from the whole
   /// cloud. All other points are assigned to the directions by the normal given.
   void setMaxSamples(std::size_t num_points) { max_samples_ = num_points; }
@@ -127,7 +128,6 @@ class DominantDirectionClustering : public pcl::PCLBase<PointT> {
                      std::vector<pcl::PointIndices>& clusters);
   std::vector<std::size_t> chooseSample(const detail::LabelPoints& points) const;
   void averageNormals(const std::vector<std::size_t>& sample, detail::LabelPoints& points) const;
-  bool isWall(const Eigen::Vector3d& normal) const;
   std::vector<Eigen::Vector3d> findDirections(const detail::AngleHistogram& histogram);
   std::vector<pcl::PointIndices> assignPoints(const detail::LabelPoints& points,
                                               const std::vector<Eigen::Vector3d>& directions) const;

@@ -10,7 +10,8 @@ namespace storey {
 /// Maximum flow, and with it a minimum cut, between two terminals (the method of Boykov and
 /// Kolmogorov). Capacities are integers, so that sums are exact and a result can be repeated; the
 /// sum of all of them must fit into `Capacity`. Nodes are numbered 0 .. n-1; the terminals have no
-/// numbers. Capacities may be added after `solve`, too: the next one continues from the flow found.
+/// numbers. Capacities may be added after `solve`, too: the next one continues from the flow and the
+/// trees found, and looks only at what changed (Kohli and Torr).
 class MaxFlow {
  public:
   using Capacity = std::int64_t;
@@ -26,8 +27,11 @@ class MaxFlow {
 
   /// Adds the arcs i -> j and j -> i (capacities >= 0). Repeated arcs add up. The cut pays
   /// `capacity` when i is on the source's side and j on the sink's, `reverse_capacity` the other
-  /// way round.
-  void addEdge(std::size_t i, std::size_t j, Capacity capacity, Capacity reverse_capacity);
+  /// way round. \return the number of the edge: 0, 1, ... in the order in which they are added
+  std::size_t addEdge(std::size_t i, std::size_t j, Capacity capacity, Capacity reverse_capacity);
+
+  /// Adds to the capacities of an edge (both >= 0).
+  void raiseEdge(std::size_t edge, Capacity capacity, Capacity reverse_capacity);
 
   /// The value of the maximum flow = the capacity of the minimum cut.
   Capacity solve();
@@ -60,7 +64,9 @@ class MaxFlow {
   };
 
   void addArc(std::size_t tail, std::size_t head, Capacity capacity);
-  void plantTrees();
+  void raiseArc(Index index, Capacity more);
+  void plant(Index node);
+  void adoptAll();
   void activate(Index node);
   Index grow(Index node);
   void augment(Index middle);
@@ -83,6 +89,7 @@ class MaxFlow {
 
   std::vector<Node> nodes_;
   std::vector<Arc> arcs_;  // the reverse of arc a is a ^ 1
+  std::vector<Index> changed_;  // nodes whose terminal has changed
   std::vector<Index> active_;
   std::vector<Index> orphans_;
   std::uint32_t time_ = 0;  // number of augmentations

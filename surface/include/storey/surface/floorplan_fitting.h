@@ -49,6 +49,7 @@ struct FitOptions {
   double max_shift = 0.0;        ///< a height moves by no more than this in one fit, > 0
   bool share_directions = true;  ///< walls whose directions agree within 3.5 deviations share one
   bool find_panes = true;        ///< windows set back are a mode of their own, where they are found
+  int rounds = 3;                ///< of giving points to walls and fitting these; two settle
   unsigned int threads = 0;      ///< 0: all cores; the result is the same for any number
 };
 

@@ -10,34 +10,62 @@
 // a register.
 namespace storey::detail {
 
-/// Arrays are padded to a multiple of this.
+/// Positions stand in blocks of so many; arrays are padded to a multiple of it.
 constexpr std::size_t kLanes = 16;
 
-/// Squared distances from q to n positions, n a multiple of `kLanes`.
-void squaredDistances(const float* x, const float* y, const float* z, std::size_t n, const float* q,
-                      float* squared);
+/// One array for each coordinate; block b begins at b `kLanes`.
+struct Coordinates {
+  const float* x;
+  const float* y;
+  const float* z;
+};
 
-/// Squared distances to n positions from the box between two corners, 0 inside.
-void squaredDistancesToBox(const float* x, const float* y, const float* z, std::size_t n,
-                           const float* low, const float* high, float* squared);
+/// An axis-parallel box by its corners, or a position where both are the same.
+struct Corners {
+  const float* low;
+  const float* high;
+};
 
-/// How many of n values, n a multiple of `kLanes`, are at most `limit`.
-std::size_t countWithin(const float* values, std::size_t n, float limit);
+/// Writes the places of the boxes that come within a squared distance of another, ascending, and
+/// returns their number; `places` has room for n + 8.
+/// \param sides low x, y, z, then high x, y, z of n boxes, n a multiple of `kLanes`
+std::size_t boxesWithin(const std::array<const float*, 6>& sides, std::size_t n, const Corners& box,
+                        float squared_reach, std::uint32_t* places);
+
+/// Copies the positions of some blocks that come within a squared distance of a box, in their
+/// order, and returns their number. \param chosen x, y and z, with room for 8 more than there are
+std::size_t positionsWithin(const Coordinates& positions, const std::uint32_t* blocks,
+                            std::size_t num_blocks, const Corners& box, float squared_reach,
+                            const std::array<float*, 3>& chosen);
+
+/// Squared distances from q to all positions of some blocks.
+void squaredDistances(const Coordinates& positions, const std::uint32_t* blocks,
+                      std::size_t num_blocks, const float* q, float* squared);
+
+/// A limit that exactly k of n values, a multiple of `kLanes`, do not exceed, found by counting;
+/// NaN if there is none to be found, because of ties. \param guess > 0
+float limitOf(const float* values, std::size_t n, std::size_t k, float guess);
 
 /// Writes the places of the values that are at most `limit`, ascending, and returns their number;
 /// `places` has room for n + 8.
 std::size_t placesWithin(const float* values, std::size_t n, float limit, std::uint32_t* places);
 
-/// First and second moments of positions about some point.
-struct Moments {
-  double count = 0.0;
-  std::array<double, 3> sum{};       ///< x, y, z
-  std::array<double, 6> products{};  ///< xx, xy, xz, yy, yz, zz
+/// A number for each of `kLanes` queries, in one line of the cache.
+struct alignas(kLanes * sizeof(float)) Lanes {
+  std::array<float, kLanes> of;
 };
 
-/// Moments of n positions about q; n is padded with copies of q to a multiple of `kLanes`, which
-/// add nothing but to the count, so that is given.
-Moments momentsAbout(const float* x, const float* y, const float* z, std::size_t n, const float* q,
-                     std::size_t count);
+/// For each lane first and second moments of its neighbours about its query: of x, y, z, xx, xy,
+/// xz, yy, yz and zz, added one neighbour after the other.
+using MomentLanes = std::array<std::array<double, kLanes>, 9>;
+
+/// Finds the k nearest among n candidates for each of `kLanes` queries, and their moments.
+/// \param queries x, y and z \param guess > 0, of the squared distance to the k-th
+/// \param[out] squared distances of each candidate
+/// \param[out] limits squared, within which exactly the k nearest lie; NaN where there is none,
+/// because of ties, and the moments mean nothing
+void momentsOfNearest(const Coordinates& candidates, std::size_t n,
+                      const std::array<Lanes, 3>& queries, std::size_t k, float guess,
+                      Lanes* squared, Lanes& limits, MomentLanes& moments);
 
 }  // namespace storey::detail

@@ -31,8 +31,9 @@ struct DistinctPositions {
   std::vector<pcl::index_t> id_of_input;      ///< place in `cloud` of every input position, or -1
 };
 
-/// O(n log n). Positions that are not `isSearchable` are left out (id -1).
-DistinctPositions findDistinctPositions(const std::vector<Eigen::Vector3f>& positions);
+/// O(n). Positions that are not `isSearchable` are left out (id -1). \param threads 0: all cores
+DistinctPositions findDistinctPositions(const std::vector<Eigen::Vector3f>& positions,
+                                        unsigned int threads = 1);
 
 /// The positions of a cloud of any point type.
 template <typename PointT>

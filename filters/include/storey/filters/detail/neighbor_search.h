@@ -14,8 +14,8 @@
 
 namespace storey::detail {
 
-/// The k nearest of a position, itself among them, by ascending id. The arrays are padded with the
-/// first to a multiple of `kLanes`, and belong to the workspace: they live until its next search.
+/// The k nearest of a position, itself among them, by ascending id. The arrays belong to the
+/// workspace: they live until its next search.
 struct Neighborhood {
   pcl::index_t id = 0;
   std::array<float, 3> position{};
@@ -33,78 +33,73 @@ struct Neighborhood {
   }
   /// Squared distance to the farthest.
   float squaredRadius() const;
-  /// About the first, so that equal neighbourhoods have equal moments.
-  Moments moments() const;
 };
 
-/// Exact nearest neighbours of all positions of a cloud, several times faster than one by one in a
-/// k-d tree: positions that follow each other on the Morton curve share their candidates, which lie
-/// in plain arrays; the distance to the k-th is found by counting, without a heap. Where it is not
-/// proven that all neighbours are among the candidates, the search is repeated in a box that holds
-/// the ball.
+/// The moments of up to `kLanes` neighbourhoods, a lane each.
+struct MomentBatch {
+  std::array<pcl::index_t, kLanes> ids;  ///< of the positions; -1: nothing in this lane
+  std::size_t count = 0;                 ///< positions of a neighbourhood
+  MomentLanes moments;
+};
+
+/// Exact nearest neighbours of the positions of a cloud, which stand in blocks along the Morton
+/// curve under a tree of their bounding boxes. Where it is not proven that all neighbours lie
+/// within the reach of a search, it is repeated with a reach that holds them.
 ///
 /// Of equally far positions those with lower ids are taken, so that the result depends on the
 /// positions alone.
 class NeighborSearch {
  public:
   using Cloud = pcl::PointCloud<pcl::PointXYZ>;
-  using Visit = std::function<void(const Neighborhood&)>;
-
-  /// Positions in plain arrays, padded with infinity to a multiple of `kLanes`. The arrays only
-  /// grow: the first `padded()` entries count.
-  struct Candidates {
-    std::vector<float> x, y, z;
-    std::vector<pcl::index_t> ids;
-    std::size_t count = 0;
-
-    void resize(std::size_t size);
-    std::size_t padded() const;
-  };
+  using VisitMoments = std::function<void(const MomentBatch&)>;
 
   /// Memory for searches, one for each thread. What it remembers makes the next search faster, but
   /// does not change what it finds.
   struct Workspace {
-    float squared_reach = 0.0f;  ///< of the neighbourhoods lately found; 0: none yet
-    std::vector<std::uint32_t> leaves, places;
-    Candidates in_leaves, candidates, nearest;
-    std::vector<float> squared, sorted;  ///< squared distances of the candidates
+    float squared_reach = 0.0f;               ///< of the neighbourhoods lately found; 0: none yet
+    std::vector<std::uint32_t> leaves;        ///< within reach
+    std::array<std::vector<float>, 6> boxes;  ///< their sides, padded
+    std::vector<std::uint32_t> blocks;        ///< of the leaves, those near some position
+    std::size_t num_blocks = 0;
+    std::vector<float> squared, sorted;  ///< distances of their positions
+    std::vector<Lanes> distances;        ///< squared, of the candidates of a batch
+    std::vector<std::uint32_t> places;
+    std::vector<pcl::index_t> ids;          ///< of the nearest
+    std::array<std::vector<float>, 3> xyz;  ///< and where they are
   };
 
   /// O(n). \param positions distinct and searchable, in Morton order
   explicit NeighborSearch(const Cloud::ConstPtr& positions);
 
+  std::size_t size() const { return size_; }
+
   /// The k nearest of position `id`, or all positions if there are fewer.
   Neighborhood nearest(pcl::index_t id, std::size_t k, Workspace& workspace) const;
 
-  /// Visits the neighbourhoods of all positions marked in `wanted` (parallel to the positions),
-  /// from several threads at once.
-  void forEach(std::size_t k, const std::vector<char>& wanted, unsigned int threads,
-               const Visit& visit) const;
+  /// Visits the moments of the neighbourhoods of all positions marked in `wanted` (parallel to the
+  /// positions), from several threads at once; many times faster than searches one by one. Moments
+  /// are about the position itself, or about the first where the neighbours are all positions.
+  void forEachMoments(std::size_t k, const std::vector<char>& wanted, unsigned int threads,
+                      const VisitMoments& visit) const;
 
  private:
-  // Positions that share their candidates.
-  struct Group {
-    std::array<std::uint32_t, 64> ids;
-    std::size_t count = 0;
-    Box box;
-    float squared_reach = 0.0f;  // within which the neighbours of those that are left lie
-  };
+  friend class MomentVisits;
 
-  std::size_t nextGroup(std::size_t id, std::size_t end, const std::vector<char>& wanted,
-                        const Workspace& workspace, Group& group) const;
-  void visitGroup(Group& group, std::size_t k, Workspace& workspace, const Visit& visit) const;
-  void divideGroup(const Group& group, std::size_t k, Workspace& workspace,
-                   const Visit& visit) const;
-  bool visitTogether(Group& group, float squared_reach, std::size_t k, Workspace& workspace,
-                     const Visit& visit) const;
-  Box boxOf(std::size_t begin, std::size_t end) const;
+  Box boxOf(std::size_t id) const;
   bool gather(const Box& box, float reach, std::size_t most_leaves, Workspace& workspace) const;
-  void fillFromLeaves(Workspace& workspace) const;
-  Neighborhood searchAlone(std::size_t id, std::size_t k, Workspace& workspace) const;
-  Neighborhood take(std::size_t id, std::size_t k, Workspace& workspace) const;
+  void chooseBlocks(const Box& box, float squared_reach, std::size_t k, Workspace& workspace) const;
+  float searchAlone(std::size_t id, std::size_t k, Workspace& workspace) const;
+  float take(std::size_t id, std::size_t k, float squared_reach, Workspace& workspace) const;
+  std::size_t sizeOf(const std::uint32_t* blocks, std::size_t num_blocks) const;
+  Coordinates coordinates() const { return {xyz_[0].data(), xyz_[1].data(), xyz_[2].data()}; }
 
-  Cloud::ConstPtr positions_;
+  std::size_t size_;
+  std::array<std::vector<float>, 3> xyz_;  // padded with infinity
   BoundingBoxTree tree_;
 };
+
+/// Moments of one neighbourhood in the first lane, added as `forEachMoments` does.
+/// \param origin about which
+MomentBatch momentsOf(const Neighborhood& neighborhood, const std::array<float, 3>& origin);
 
 }  // namespace storey::detail

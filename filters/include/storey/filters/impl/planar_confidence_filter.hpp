@@ -88,7 +88,7 @@ bool PlanarConfidenceFilter<PointT>::inputsValid() const {
 template <typename PointT>
 void PlanarConfidenceFilter<PointT>::computeConfidences() {
   const detail::DistinctPositions distinct =
-      detail::findDistinctPositions(detail::positionsOf(*this->input_));
+      detail::findDistinctPositions(detail::positionsOf(*this->input_), threads_);
   const std::vector<double> of_position = confidencesOf(distinct);
   confidences_.reserve(this->indices_->size());
   for (const pcl::index_t i : *this->indices_) {

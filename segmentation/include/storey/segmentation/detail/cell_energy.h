@@ -54,6 +54,13 @@ class LabelCut {
   /// \param gap cost of a wall where no points are, of its area
   LabelCut(const LineArrangement& plan, const CellTerms& terms, double gap);
 
+  /// For terms that are still to come, with `raiseTo`. \param most the last of them
+  static LabelCut ofRising(const LineArrangement& plan, const CellTerms& most, double gap);
+
+  /// From now on the labelling is that of these terms: those before and those of more layers.
+  /// Only what changes is solved again.
+  void raiseTo(const CellTerms& terms);
+
   /// From now on the edge must not separate inside from outside. Only what changes is solved again.
   void tie(std::size_t edge);
   bool tied(std::size_t edge) const { return tied_[edge] != 0; }
@@ -62,10 +69,16 @@ class LabelCut {
   std::vector<char> solve();
 
  private:
+  LabelCut(const LineArrangement& plan, double total, double gap);
+  MaxFlow::Capacity integer(double value) const;
+
   const LineArrangement* plan_;
+  double gap_;
+  double total_;  // of all costs
   std::vector<char> tied_;
-  MaxFlow flow_;
-  MaxFlow::Capacity forbidden_ = 0;  // more than any labelling without ties costs
+  std::vector<MaxFlow::Capacity> guesses_;  // of each edge, so far
+  std::vector<MaxFlow::Capacity> costs_;    // of each cell inside, so far
+  MaxFlow flow_;                            // edges numbered as those of the plan
 };
 
 /// The labelling of least energy. \param gap as in `LabelCut` \param inside one a cell

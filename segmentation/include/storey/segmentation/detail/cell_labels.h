@@ -35,10 +35,11 @@ struct CellBlock {
 /// the other way costs all of it. A roof above a cell means inside, one below outside. The energy
 /// is submodular, each cut is optimal, and dynamic programming over all partitions of the layers
 /// makes the blocks so: these are the dominant floorplans of the building.
+/// \param threads 0: all cores; the result is the same for any number
 std::vector<CellBlock> labelCells(const LineArrangement& plan, const WallEvidence& evidence,
                                   const std::vector<std::size_t>& levels,
                                   const std::vector<LevelPoint>& level_points,
-                                  const CellEnergyOptions& options);
+                                  const CellEnergyOptions& options, unsigned int threads = 0);
 
 /// The outlines of the cells inside. `FloorplanEdge::wall` is 2 line + (0: outside is ahead of the
 /// line, 1: behind it); an edge of which less than a third is confirmed is hypothetical.

@@ -35,8 +35,9 @@ class PositionSearch {
 
   /// \param points indices into `cloud`, all with searchable positions
   /// \param tree is given the sites as its input cloud; null: a search of our own
+  /// \param threads that order the sites, 0: all cores
   PositionSearch(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& points,
-                 const typename Tree::Ptr& tree)
+                 const typename Tree::Ptr& tree, unsigned int threads = 1)
       : given_tree_(tree) {
     std::vector<Eigen::Vector3f> positions;
     positions.reserve(points.size());
@@ -44,7 +45,7 @@ class PositionSearch {
       const PointT& p = cloud[static_cast<std::size_t>(i)];
       positions.emplace_back(p.x, p.y, p.z);
     }
-    const DistinctPositions distinct = findDistinctPositions(positions);
+    const DistinctPositions distinct = findDistinctPositions(positions, threads);
     sites_ = distinct.cloud;
     site_of_point_.assign(distinct.id_of_input.begin(), distinct.id_of_input.end());
     if (sites_->empty()) {

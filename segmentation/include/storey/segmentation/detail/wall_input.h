@@ -4,6 +4,7 @@
 #include <pcl/common/point_tests.h>
 #include <pcl/point_cloud.h>
 #include <storey/filters/cloud_scale.h>
+#include <storey/filters/detail/chunks.h>
 #include <storey/segmentation/detail/cell_energy.h>
 #include <storey/segmentation/detail/place_order.h>
 #include <storey/segmentation/detail/wall_lines.h>
@@ -73,13 +74,14 @@ double leastWallArea(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& o
 
 template <typename PointT>
 std::vector<WallPoint> toWallPoints(const pcl::PointCloud<PointT>& cloud,
-                                    const pcl::Indices& indices) {
-  std::vector<WallPoint> points;
-  points.reserve(indices.size());
-  for (const pcl::index_t i : indices) {
-    const PointT& p = cloud[static_cast<std::size_t>(i)];
-    points.push_back({{p.x, p.y}, p.z, Eigen::Vector2d(p.normal_x, p.normal_y).normalized()});
-  }
+                                    const pcl::Indices& indices, unsigned int threads = 0) {
+  std::vector<WallPoint> points(indices.size());
+  forEachChunk(indices.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const PointT& p = cloud[static_cast<std::size_t>(indices[k])];
+      points[k] = {{p.x, p.y}, p.z, Eigen::Vector2d(p.normal_x, p.normal_y).normalized()};
+    }
+  });
   return points;
 }
 
@@ -107,9 +109,9 @@ WallInput gatherWallInput(const pcl::PointCloud<PointT>& cloud, const pcl::Indic
   input.min_wall_area = parameters.min_wall_area > 0.0
                             ? parameters.min_wall_area
                             : leastWallArea(cloud, of_walls, input.scale.noise);
-  input.sample = toWallPoints(cloud, orderByPlace(cloud, drawEvenly(of_walls), threads));
+  input.sample = toWallPoints(cloud, orderByPlace(cloud, drawEvenly(of_walls), threads), threads);
   input.wall_indices = orderByPlace(cloud, of_walls, threads);
-  input.walls = toWallPoints(cloud, input.wall_indices);
+  input.walls = toWallPoints(cloud, input.wall_indices, threads);
   return input;
 }
 

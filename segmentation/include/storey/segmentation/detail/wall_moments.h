@@ -3,9 +3,6 @@
 
 #include <storey/segmentation/detail/wall_points.h>
 
-#include <utility>
-#include <vector>
-
 namespace storey::detail {
 
 /// Sums over points about a line: of their places along it (s) and across it (d), and of the parts
@@ -19,6 +16,10 @@ struct WallMoments {
     const double turn = line.tangent().dot(p.normal);
     return {1.0, along, across, along * along, along * across, turn, turn * turn};
   }
+  /// Of the place alone.
+  static WallMoments ofPlace(double along, double across) {
+    return {1.0, along, across, along * along, along * across, 0.0, 0.0};
+  }
   void add(const WallMoments& m) {
     n += m.n, s += m.s, d += m.d, ss += m.ss, sd += m.sd, t += m.t, tt += m.tt;
   }
@@ -30,9 +31,5 @@ struct WallMoments {
   /// Of the line d(s) of least squares, where `spread` > 0.
   double slope() const { return (sd - s * d / n) / spread(); }
 };
-
-/// The first and the last place along the line of some points, not none.
-std::pair<double, double> endsAlong(const std::vector<WallPoint>& points,
-                                    const std::vector<int>& support, const WallLine& line);
 
 }  // namespace storey::detail

@@ -36,7 +36,7 @@ class VoteTable {
 
  private:
   int binOf(double offset) const {
-    const auto bin = static_cast<int>((offset - low_) / bin_);
+    const auto bin = static_cast<int>((offset - low_) * bins_per_length_);
     return bin < 0 ? 0 : bin < bins_ ? bin : bins_ - 1;
   }
   Peak strongestOf(std::size_t angle) const;
@@ -46,6 +46,7 @@ class VoteTable {
   std::vector<double> angles_;
   std::vector<Eigen::Vector2d> normals_;
   double bin_;
+  double bins_per_length_;
   int window_;
   unsigned int threads_;
   double low_ = 0.0;

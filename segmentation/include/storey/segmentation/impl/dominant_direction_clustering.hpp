@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl/console/print.h>
+#include <storey/filters/detail/chunks.h>
 #include <storey/filters/detail/indices.h>
 #include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/position_hash.h>
@@ -14,6 +15,15 @@
 #include <utility>
 
 namespace storey {
+
+namespace detail {
+
+/// Whether a unit normal is no further from the horizontal than an angle with this sine.
+inline bool isLevelNormal(const Eigen::Vector3d& normal, double greatest_sine) {
+  return normal.head<2>().squaredNorm() > 0.0 && std::abs(normal.z()) <= greatest_sine;
+}
+
+}  // namespace detail
 
 template <typename PointT, typename NormalT>
 void DominantDirectionClustering<PointT, NormalT>::extract(
@@ -68,7 +78,9 @@ template <typename PointT, typename NormalT>
 void DominantDirectionClustering<PointT, NormalT>::clusterPoints(
     const pcl::PointCloud<NormalT>& normals, std::vector<pcl::PointIndices>& clusters) {
   pcl::Indices indices = *this->indices_;
-  std::sort(indices.begin(), indices.end());
+  if (!std::is_sorted(indices.begin(), indices.end())) {
+    std::sort(indices.begin(), indices.end());
+  }
   indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
   detail::LabelPoints points = detail::collectOrientedPoints(*this->input_, normals, indices);
 
@@ -78,7 +90,7 @@ void DominantDirectionClustering<PointT, NormalT>::clusterPoints(
   }
   detail::AngleHistogram histogram;
   for (const std::size_t j : sample) {
-    if (isWall(points.normals[j])) {
+    if (detail::isLevelNormal(points.normals[j], std::sin(max_tilt_))) {
       histogram.add(std::atan2(points.normals[j].y(), points.normals[j].x()));
     }
   }
@@ -90,15 +102,33 @@ void DominantDirectionClustering<PointT, NormalT>::clusterPoints(
 template <typename PointT, typename NormalT>
 std::vector<std::size_t> DominantDirectionClustering<PointT, NormalT>::chooseSample(
     const detail::LabelPoints& points) const {
-  std::vector<std::size_t> sample(points.size());
-  std::iota(sample.begin(), sample.end(), std::size_t{0});
+  constexpr std::uint64_t kAllHashes = std::numeric_limits<std::uint64_t>::max();
+  std::vector<std::size_t> sample;
   if (max_samples_ == 0 || points.size() <= max_samples_) {
+    sample.resize(points.size());
+    std::iota(sample.begin(), sample.end(), std::size_t{0});
     return sample;
   }
   std::vector<std::uint64_t> hash(points.size());
-  for (std::size_t j = 0; j < points.size(); ++j) {
-    const PointT& p = (*this->input_)[static_cast<std::size_t>(points.indices[j])];
-    hash[j] = detail::hashOfPoint(Eigen::Vector3d(p.x, p.y, p.z), points.normals[j]);
+  detail::forEachChunk(
+      points.size(), threads_, [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t j = begin; j < end; ++j) {
+          const PointT& p = (*this->input_)[static_cast<std::size_t>(points.indices[j])];
+          hash[j] = detail::hashOfPoint(Eigen::Vector3d(p.x, p.y, p.z), points.normals[j]);
+        }
+      });
+  // The least hashes; only those of about half as many again are sorted.
+  const double share = 1.5 * static_cast<double>(max_samples_) / static_cast<double>(points.size());
+  std::uint64_t limit =
+      share < 1.0 ? static_cast<std::uint64_t>(std::ldexp(share, 64)) : kAllHashes;
+  while (sample.size() < max_samples_) {
+    sample.clear();
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      if (hash[j] <= limit) {
+        sample.push_back(j);
+      }
+    }
+    limit = limit < kAllHashes / 2 ? 2 * limit : kAllHashes;
   }
   const auto end = sample.begin() + static_cast<std::ptrdiff_t>(max_samples_);
   std::nth_element(sample.begin(), end, sample.end(), [&hash](std::size_t i, std::size_t j) {
@@ -112,13 +142,15 @@ template <typename PointT, typename NormalT>
 void DominantDirectionClustering<PointT, NormalT>::averageNormals(
     const std::vector<std::size_t>& sample, detail::LabelPoints& points) const {
   constexpr double kSameFace = 0.5;  // cos 60 degrees: 4 deviations of 15 degrees
-  const detail::PositionSearch<PointT> search(*this->input_, points.indices, tree_);
+  const detail::PositionSearch<PointT> search(*this->input_, points.indices, tree_, threads_);
   std::vector<Eigen::Vector3d> site_normals(search.numSites(), Eigen::Vector3d::Zero());
   for (std::size_t j = 0; j < points.size(); ++j) {
     site_normals[search.siteOf(j)] += points.normals[j];
   }
-  for (Eigen::Vector3d& normal : site_normals) {
-    normal.normalize();  // leaves zero alone
+  if (search.numSites() < points.size()) {
+    for (Eigen::Vector3d& normal : site_normals) {
+      normal.normalize();  // leaves zero alone
+    }
   }
   std::vector<std::size_t> queries = sample;  // in the order of sites: fast in the tree
   std::sort(queries.begin(), queries.end(), [&search](std::size_t i, std::size_t j) {
@@ -148,11 +180,6 @@ void DominantDirectionClustering<PointT, NormalT>::averageNormals(
 }
 
 template <typename PointT, typename NormalT>
-bool DominantDirectionClustering<PointT, NormalT>::isWall(const Eigen::Vector3d& normal) const {
-  return normal.head<2>().squaredNorm() > 0.0 && std::abs(normal.z()) <= std::sin(max_tilt_);
-}
-
-template <typename PointT, typename NormalT>
 std::vector<Eigen::Vector3d> DominantDirectionClustering<PointT, NormalT>::findDirections(
     const detail::AngleHistogram& histogram) {
   if (histogram.total() == 0) {
@@ -179,9 +206,10 @@ template <typename PointT, typename NormalT>
 std::vector<pcl::PointIndices> DominantDirectionClustering<PointT, NormalT>::assignPoints(
     const detail::LabelPoints& points, const std::vector<Eigen::Vector3d>& directions) const {
   const double least_cosine = std::cos(30.0 * M_PI / 180.0);  // 2.8 deviations of raw normals
+  const double greatest_sine = std::sin(max_tilt_);
   std::vector<pcl::PointIndices> found(directions.size());
   for (std::size_t j = 0; j < points.size(); ++j) {
-    if (!isWall(points.normals[j])) {
+    if (!detail::isLevelNormal(points.normals[j], greatest_sine)) {
       continue;
     }
     std::size_t nearest = directions.size();

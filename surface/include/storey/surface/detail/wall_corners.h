@@ -8,10 +8,12 @@
 
 namespace storey::detail {
 
-/// Moves all corners to the intersections of the fitted lines. An edge that would turn around is
-/// shorter than its neighbours are off: it goes if it is shorter than they are; and so does the
-/// shorter of two edges whose lines are nearly one. Where that does not help, the ring keeps its
-/// corners and loses its wall ids.
+/// Moves all corners to the intersections of the fitted lines. Neighbours that are nearly parallel
+/// may cross anywhere: where that is further away than the shorter of them is long, their corner is
+/// put on the line of the longer one, and the shorter one loses its wall id. Where an edge
+/// would turn around, it or one of its neighbours is shorter than their lines are off: the shortest
+/// of the three goes. A ring of which fewer than three edges would be left keeps its corners and
+/// loses all its wall ids.
 void moveCorners(std::vector<FloorplanLayer>& layers, const std::map<int, WallFit>& fits);
 
 }  // namespace storey::detail

@@ -54,6 +54,7 @@ struct WallPanes {
 /// deviation are common to all, offset, share and background are each wall's own. \return parallel
 /// to `walls`; empty if two modes do not describe the building decisively better than one normal a
 /// wall
-std::vector<WallPanes> fitPanes(const std::vector<ResidualHistogram>& walls);
+std::vector<WallPanes> fitPanes(const std::vector<ResidualHistogram>& walls,
+                                unsigned int threads = 0);
 
 }  // namespace storey::detail

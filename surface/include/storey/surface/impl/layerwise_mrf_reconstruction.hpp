@@ -5,6 +5,7 @@
 #include <pcl/common/point_tests.h>
 #include <pcl/console/print.h>
 #include <pcl/conversions.h>
+#include <storey/filters/detail/chunks.h>
 #include <storey/filters/detail/indices.h>
 #include <storey/segmentation/building_floorplan_extraction.h>
 #include <storey/segmentation/detail/indexed_scale.h>
@@ -49,15 +50,17 @@ FitPoints toFitPoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& 
                       unsigned int threads) {
   const pcl::Indices order = orderByPlace(cloud, indices, threads);
   FitPoints points;
-  points.positions.reserve(order.size());
-  points.normals.reserve(order.size());
-  for (const pcl::index_t i : order) {
-    const PointT& p = cloud[static_cast<std::size_t>(i)];
-    points.positions.emplace_back(p.x, p.y, p.z);
-    const bool known = pcl::isNormalFinite(p);
-    points.normals.push_back(known ? Eigen::Vector3f(p.normal_x, p.normal_y, p.normal_z)
-                                   : Eigen::Vector3f(Eigen::Vector3f::Zero()));
-  }
+  points.positions.resize(order.size());
+  points.normals.resize(order.size());
+  forEachChunk(order.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const PointT& p = cloud[static_cast<std::size_t>(order[k])];
+      points.positions[k] = {p.x, p.y, p.z};
+      points.normals[k] = pcl::isNormalFinite(p)
+                              ? Eigen::Vector3f(p.normal_x, p.normal_y, p.normal_z)
+                              : Eigen::Vector3f(Eigen::Vector3f::Zero());
+    }
+  });
   return points;
 }
 
