@@ -81,7 +81,7 @@ class Pruning {
     for (std::size_t b = 0; b <= stack.size(); ++b) joints_.push_back(jointOf(stack, b));
   }
 
-  // F
+  // F. A line that was guessed costs nothing to describe: it follows from the ends of others.
   double objectiveOf(const Stack& stack, const std::vector<double>& joints) const {
     std::vector<const std::vector<OutlineRun>*> runs;
     std::vector<char> used(plan_.lines.size(), 0);
@@ -90,11 +90,14 @@ class Pruning {
       energy += outline->energy;
       runs.push_back(&outline->runs);
       for (const OutlineRun& run : outline->runs) {
-        used[static_cast<std::size_t>(plan_.edges[run.first].line)] = 1;
+        const auto line = static_cast<std::size_t>(plan_.edges[run.first].line);
+        used[line] = plan_.lines[line].hypothetical ? 0 : 1;
       }
     }
+    const bool vanished = std::all_of(runs.begin(), runs.end(),
+                                      [](const auto* of_block) { return of_block->empty(); });
+    if (vanished && !may_vanish_) return std::numeric_limits<double>::infinity();
     const auto lines = std::count(used.begin(), used.end(), 1);
-    if (lines == 0 && !may_vanish_) return std::numeric_limits<double>::infinity();
     const double complexity =
         std::accumulate(joints.begin(), joints.end(), static_cast<double>(countWalls(runs)));
     return energy + cost_ * (complexity + static_cast<double>(lines));

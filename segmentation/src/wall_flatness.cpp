@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/segmentation/detail/wall_flatness.h>
+#include <storey/segmentation/detail/wall_moments.h>
 #include <storey/segmentation/detail/wall_support.h>
 
 #include <algorithm>
@@ -20,18 +21,6 @@ constexpr std::size_t kBins = 24;        // along the wall
 constexpr double kSetback = 1.2;         // noise deviations between storeys; panes make half of it
 constexpr std::size_t kLevels = 48;      // of height
 
-// Sums for the line d(s) of least squares.
-struct Moments {
-  double n = 0.0, s = 0.0, d = 0.0, ss = 0.0, sd = 0.0;
-
-  void add(double along, double across) {
-    add({1.0, along, across, along * along, along * across});
-  }
-  void add(const Moments& m) { n += m.n, s += m.s, d += m.d, ss += m.ss, sd += m.sd; }
-  double spread() const { return n > 0.0 ? ss - s * s / n : 0.0; }
-  double slope() const { return (sd - s * d / n) / spread(); }  // spread() > 0
-};
-
 // A support, not empty, in bins of equal width along the line.
 class Profile {
  public:
@@ -42,24 +31,24 @@ class Profile {
       const double s = support.s[k] - low;
       const std::size_t bin = std::min(static_cast<std::size_t>(s / step), kBins - 1);
       bin_of_[k] = static_cast<std::uint8_t>(bin);
-      bins_[bin].add(s, support.d[k]);
+      bins_[bin].add(WallMoments::ofPlace(s, support.d[k]));
     }
   }
 
-  const Moments& operator[](std::size_t bin) const { return bins_[bin]; }
+  const WallMoments& operator[](std::size_t bin) const { return bins_[bin]; }
 
-  Moments sumOf(std::size_t first, std::size_t last) const {
-    Moments sum;
+  WallMoments sumOf(std::size_t first, std::size_t last) const {
+    WallMoments sum;
     for (std::size_t b = first; b < last; ++b) sum.add(bins_[b]);
     return sum;
   }
 
   // Whether few points lie where the mean is off the level of the stretch.
   bool isFlat(std::size_t first, std::size_t last, double noise) const {
-    const Moments all = sumOf(first, last);
+    const WallMoments all = sumOf(first, last);
     double off = 0.0;
     for (std::size_t b = first; b < last; ++b) {
-      const Moments& bin = bins_[b];
+      const WallMoments& bin = bins_[b];
       if (bin.n < 1.0) continue;
       const double away = std::abs(bin.d / bin.n - all.d / all.n);
       if (away > noise * (kFlat + kDeviations / std::sqrt(bin.n))) off += bin.n;
@@ -71,14 +60,25 @@ class Profile {
 
  private:
   std::vector<std::uint8_t> bin_of_;  // parallel to the support
-  std::array<Moments, kBins> bins_;
+  std::array<WallMoments, kBins> bins_;
 };
 
-bool leans(const Moments& run, double length, double noise) {
+// Whether normals tell that a run whose places turn by this slope does not: they are nearer to the
+// line, and further from the turn than their scatter explains.
+bool isStraightByNormals(const WallMoments& run, double slope) {
+  const double mean = run.t / run.n;
+  const double away = std::abs(mean + slope);
+  const double variance = std::max(0.0, run.tt / run.n - mean * mean) / run.n;
+  return away > std::abs(mean) && away > kDeviations * std::sqrt(variance);
+}
+
+bool leans(const WallMoments& run, double length, double noise, bool by_normals) {
   const double spread = run.spread();
   if (!(spread > 0.0)) return false;
-  const double slope = std::abs(run.slope());
-  return slope > kLeanDeviations * noise / std::sqrt(spread) && slope * length > kLean * noise;
+  const double slope = run.slope();
+  return std::abs(slope) > kLeanDeviations * noise / std::sqrt(spread) &&
+         std::abs(slope) * length > kLean * noise &&
+         !(by_normals && isStraightByNormals(run, slope));
 }
 
 // Points at some heights: how many, and the sum of their places across the line.
@@ -161,21 +161,25 @@ std::vector<std::pair<double, double>> runsAlong(const LinePoints& support,
   return runs;
 }
 
-LinePoints withoutLeaningRuns(LinePoints support, const WallScale& scale) {
+LinePoints withoutLeaningRuns(const std::vector<WallPoint>& points, LinePoints support,
+                              const WallScale& scale, const WallLine& line, bool by_normals) {
   const auto runs = runsAlong(support, scale);
   const auto runOf = [&](double s) {
     std::size_t r = 0;
     while (r + 1 < runs.size() && s > runs[r].second) ++r;
     return r;
   };
-  std::vector<Moments> moments(runs.size());
+  std::vector<WallMoments> moments(runs.size());
   for (std::size_t k = 0; k < support.size(); ++k) {
     const std::size_t r = runOf(support.s[k]);
-    moments[r].add(support.s[k] - runs[r].first, support.d[k]);
+    const double s = support.s[k] - runs[r].first;
+    moments[r].add(
+        by_normals ? WallMoments::of(points[static_cast<std::size_t>(support.number[k])], s, line)
+                   : WallMoments::ofPlace(s, support.d[k]));
   }
   std::vector<char> leaning(runs.size(), 0);
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    leaning[r] = leans(moments[r], runs[r].second - runs[r].first, scale.noise) ? 1 : 0;
+    leaning[r] = leans(moments[r], runs[r].second - runs[r].first, scale.noise, by_normals) ? 1 : 0;
   }
   if (std::count(leaning.begin(), leaning.end(), 1) == 0) return support;
   support.keepWhere([&](std::size_t k) { return leaning[runOf(support.s[k])] == 0; });
@@ -185,16 +189,16 @@ LinePoints withoutLeaningRuns(LinePoints support, const WallScale& scale) {
 LinePoints alongMainHalf(LinePoints support, double noise) {
   if (support.empty()) return support;
   const Profile profile(support);
-  Moments main;
+  WallMoments main;
   for (std::size_t first = 0; 2 * first <= kBins; ++first) {
-    const Moments half = profile.sumOf(first, first + kBins / 2);
+    const WallMoments half = profile.sumOf(first, first + kBins / 2);
     if (half.n > main.n) main = half;
   }
   const double spread = main.spread();
   if (!(spread > 0.0)) return support;
   std::array<char, kBins> agrees{};
   for (std::size_t b = 0; b < kBins; ++b) {
-    const Moments& bin = profile[b];
+    const WallMoments& bin = profile[b];
     const double lever = bin.s / bin.n - main.s / main.n;
     const double off = std::abs(bin.d / bin.n - main.d / main.n - main.slope() * lever);
     const double variance = 1.0 / bin.n + 1.0 / main.n + lever * lever / spread;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/found_line.h>
 #include <storey/segmentation/detail/point_blocks.h>
+#include <storey/segmentation/detail/short_walls.h>
 #include <storey/segmentation/detail/wall_density.h>
 #include <storey/segmentation/detail/wall_lines.h>
 #include <storey/segmentation/detail/wall_support.h>
@@ -26,36 +28,9 @@ constexpr double kThinMiddle = 0.7;          // of an octave of densities
 constexpr double kThinFacade = 0.25;         // of the density of all, at most
 constexpr int kMaxFailures = 40;             // peaks without support in a row
 constexpr int kMaxLines = 400;               // cells grow with their square
-constexpr double kSameAngle = 0.1 * M_PI / 180.0;  // rad, least gap between directions
-constexpr double kAngleDeviations = 4.0;
-constexpr double kMinDirectionShare = 0.04;            // of the supported area
-constexpr double kNearDirection = 4.0 * M_PI / 180.0;  // rad
-constexpr double kOutweighs = 3.0;
-constexpr double kBeside = 0.25;        // points of the stronger line, of the weaker's support
-constexpr double kExplained = 2.5;      // noise deviations across a line
-constexpr double kSupportMargin = 5.0;  // noise deviations beyond the ends of a line
-constexpr double kLeftover = 0.8;       // of the support; a wall 2 deviations beside has 0.69
-
-std::vector<int> candidatesFor(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                               const std::vector<char>& free, const WallLine& line, double gate) {
-  std::vector<int> candidates;
-  const double agreement = std::cos(kVoteAngle);
-  for (std::size_t block = 0; block < blocks.size(); ++block) {
-    if (!blocks.mayBeNear(block, line.normal, line.offset, gate)) continue;
-    for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) {
-      if (free[i] != 0 && std::abs(line.across(points[i].position)) < gate &&
-          line.normal.dot(points[i].normal) >= agreement) {
-        candidates.push_back(static_cast<int>(i));
-      }
-    }
-  }
-  return candidates;
-}
-
-struct FoundLine {
-  WallLine line;
-  std::vector<int> support;  // indices of points
-};
+constexpr double kBeside = 0.25;             // points of the stronger line, of the weaker's support
+constexpr double kExplained = 2.5;           // noise deviations across a line
+constexpr double kLeftover = 0.8;            // of the support; a wall 2 deviations beside has 0.69
 
 // One greedy pass: strongest line, its support, take its points away, again.
 void extractGreedily(const std::vector<WallPoint>& points, const PointBlocks& blocks,
@@ -71,14 +46,14 @@ void extractGreedily(const std::vector<WallPoint>& points, const PointBlocks& bl
   table.vote(voters, 1);
   SupportOptions support_options;
   support_options.fit_direction = free_direction;
+  support_options.min_area = options.min_area;
   support_options.steps = options.steps;
   const double least_votes = std::max(10.0, kMinVotes * options.min_area * scale.density);
   for (int failures = 0; failures < kMaxFailures && static_cast<int>(lines.size()) < kMaxLines;) {
     const VoteTable::Peak peak = table.strongest();
     if (peak.votes < least_votes) return;
     WallLine line = table.lineAt(peak);
-    const std::vector<int> candidates =
-        candidatesFor(points, blocks, free, line, 12.0 * scale.noise);
+    const std::vector<int> candidates = candidatesFor(points, blocks, free, line, scale.noise);
     std::vector<int> support = fitToSupport(points, candidates, scale, support_options, line);
     if (support.empty() || line.support_area < options.min_area) {
       table.strikeOut(peak);
@@ -139,50 +114,6 @@ void extractThinFacades(const std::vector<WallPoint>& points, const PointBlocks&
   }
 }
 
-// Directions modulo 180 degrees, as angles in [0, pi).
-std::vector<double> directionsOf(const std::vector<FoundLine>& lines) {
-  struct Group {
-    double angle = 0.0;
-    double weight = 0.0;  // 1 / variance
-    double area = 0.0;
-    int lines = 0;
-  };
-  std::vector<Group> groups;
-  double total = 0.0;
-  for (const auto& [line, support] : lines) {  // strongest first
-    double angle = std::atan2(line.normal.y(), line.normal.x());
-    if (angle < 0.0) angle += M_PI;
-    const double deviation = std::max(line.angle_deviation, 1e-5);
-    const double weight = 1.0 / (deviation * deviation);
-    total += line.support_area;
-    bool found = false;
-    for (Group& group : groups) {
-      double turn = std::remainder(angle - group.angle, M_PI);
-      const double gap = std::max(
-          kSameAngle, kAngleDeviations * std::hypot(deviation, 1.0 / std::sqrt(group.weight)));
-      if (std::abs(turn) > gap) continue;
-      group.angle += turn * weight / (group.weight + weight);
-      group.weight += weight;
-      group.area += line.support_area;
-      ++group.lines;
-      found = true;
-      break;
-    }
-    if (!found) groups.push_back({angle, weight, line.support_area, 1});
-  }
-  std::vector<double> angles;
-  for (const Group& group : groups) {
-    if (group.area < kMinDirectionShare * total && group.lines < 2) continue;
-    const bool outweighed = std::any_of(groups.begin(), groups.end(), [&](const Group& other) {
-      return std::abs(std::remainder(other.angle - group.angle, M_PI)) < kNearDirection &&
-             other.area > kOutweighs * group.area;
-    });
-    if (!outweighed) angles.push_back(group.angle);
-  }
-  std::sort(angles.begin(), angles.end());
-  return angles;
-}
-
 // The heights of the middle half of the points.
 std::pair<double, double> middleHeights(const std::vector<WallPoint>& points,
                                         const std::vector<int>& support) {
@@ -214,21 +145,13 @@ bool duplicates(const FoundLine& found, const FoundLine& other,
   return static_cast<double>(beside) > kBeside * static_cast<double>(weak.support);
 }
 
-bool explains(const WallLine& line, const WallPoint& p, double noise) {
-  const double s = line.along(p.position);
-  const double margin = kSupportMargin * noise;
-  return std::abs(line.across(p.position)) < kExplained * noise &&
-         line.normal.dot(p.normal) > kMinAgreement && s > line.s_min - margin &&
-         s < line.s_max + margin && p.z > line.z_min - margin && p.z < line.z_max + margin;
-}
-
 // Whether stronger lines explain nearly all of the support: at corners, where points of two walls
 // mix, the greedy search leaves some that a line of their own fits.
 bool isLeftover(const std::vector<int>& support, const std::vector<WallLine>& strong,
                 const std::vector<WallPoint>& points, double noise) {
   const auto explained = std::count_if(support.begin(), support.end(), [&](const int i) {
     return std::any_of(strong.begin(), strong.end(), [&](const WallLine& other) {
-      return explains(other, points[static_cast<std::size_t>(i)], noise);
+      return explains(other, points[static_cast<std::size_t>(i)], kExplained * noise, noise);
     });
   });
   return static_cast<double>(explained) > kLeftover * static_cast<double>(support.size());
@@ -278,6 +201,7 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
     extractThinParts(points, blocks, scale, options, oriented, all_around, free, lines);
   if (options.steps.thin_facades && !oriented.empty())
     extractThinFacades(points, blocks, scale, options, oriented, free, lines);
+  if (!oriented.empty()) extractShortWalls(points, blocks, scale, options, oriented, free, lines);
 
   std::stable_sort(lines.begin(), lines.end(), [](const FoundLine& a, const FoundLine& b) {
     return a.line.support > b.line.support;

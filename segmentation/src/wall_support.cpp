@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/wall_bends.h>
 #include <storey/segmentation/detail/wall_flatness.h>
 #include <storey/segmentation/detail/wall_support.h>
 
@@ -17,6 +18,7 @@ constexpr double kSettled = 5.0;                   // gates below: the line is n
 constexpr double kUnsettled = 1.5;                 // times the reach, before that
 constexpr double kMinOccupancy = 0.3;              // of the expected points of a cell
 constexpr int kMinFullNeighbors = 3;               // of eight
+constexpr int kGrowths = 3;
 constexpr double kTilePoints = 50.0;
 constexpr double kMinTiles = 4.0;      // fewer tell no majority
 constexpr std::size_t kMinInTile = 5;  // points, for a median
@@ -197,10 +199,42 @@ void fitLine(LinePoints& support, double cut, bool fit_direction, WallLine& line
 
 // The part of the support that is one flat wall. A line whose direction is free is taken by the
 // part that is; one whose direction is locked takes it only where it does not turn against it.
-LinePoints flatPart(LinePoints support, const WallScale& scale, bool fit_direction) {
-  LinePoints flat = withoutLeaningRuns(std::move(support), scale);
-  if (!fit_direction) return flat;
+LinePoints flatPart(const std::vector<WallPoint>& points, LinePoints support,
+                    const WallScale& scale, const SupportOptions& options, const WallLine& line) {
+  LinePoints flat = withoutLeaningRuns(points, std::move(support), scale, line, options.by_normals);
+  if (!options.fit_direction) return flat;
   return flatStretch(alongMainHalf(std::move(flat), scale.noise), scale.noise);
+}
+
+// A free line again, among all its candidates: what it was cut down to is as short as the panes at
+// its ends made it, and turned by them. Where the points bend, another wall goes on.
+LinePoints grownAlong(const std::vector<WallPoint>& points, const std::vector<int>& candidates,
+                      double cut, const WallScale& scale, const SupportOptions& options,
+                      WallLine& line) {
+  LinePoints pool(points, candidates, line);
+  LinePoints support;
+  for (int round = 0; round < kGrowths; ++round) {
+    support = inFullCells(pool.within(cut), scale);
+    if (options.steps.main_tiles) support = inMainTiles(std::move(support), scale, true);
+    support = onOneSideOfBend(points, std::move(support), scale, line);
+    if (support.empty()) return support;
+    fitLine(support, cut, true, line);
+    pool.moveTo(line);
+  }
+  return flatPart(points, std::move(support), scale, options, line);
+}
+
+// A locked direction may be that of another wall, whose line would lean over this one; or the line
+// meets another wall further on, maybe at a small angle.
+LinePoints endedAlong(const std::vector<WallPoint>& points, LinePoints support, double cut,
+                      const WallScale& scale, WallLine& line) {
+  const auto size = static_cast<double>(support.size());
+  support = flatStretch(std::move(support), scale.noise);
+  if (static_cast<double>(support.size()) < kMinFlatShare * size) return {};
+  fitLine(support, cut, false, line);
+  support = onOneSideOfBend(points, std::move(support), scale, line);
+  if (!support.empty()) fitLine(support, cut, false, line);
+  return support;
 }
 
 std::vector<char> seenCells(const LinePoints& support, const CellGrid& grid) {
@@ -274,7 +308,7 @@ std::vector<int> fitToSupport(const std::vector<WallPoint>& points,
     fitLine(support, cut, free, line);
     if (options.steps.flatness) {
       const std::size_t size = support.size();
-      support = flatPart(std::move(support), scale, free);
+      support = flatPart(points, std::move(support), scale, options, line);
       if (support.empty()) return {};
       const bool cut_off = support.size() < size;
       if (cut_off) fitLine(support, cut, free, line);
@@ -285,13 +319,15 @@ std::vector<int> fitToSupport(const std::vector<WallPoint>& points,
     }
     pool.moveTo(line);
   }
-  if (!free && options.steps.flatness) {
-    // A locked direction may be that of another wall, whose line would lean over this one; or the
-    // line meets another wall further on.
-    const auto size = static_cast<double>(support.size());
-    support = flatStretch(std::move(support), scale.noise);
-    if (static_cast<double>(support.size()) < kMinFlatShare * size) return {};
-    fitLine(support, kGates[std::size(kGates) - 1] * scale.noise, false, line);
+  if (options.steps.flatness) {
+    const double cut = kGates[std::size(kGates) - 1] * scale.noise;
+    if (free) {
+      describeSupport(support, scale, line);
+      if (line.support_area < options.min_area) return {};  // clutter would only grow into a wall
+    }
+    support = free ? grownAlong(points, candidates, cut, scale, options, line)
+                   : endedAlong(points, std::move(support), cut, scale, line);
+    if (support.empty()) return {};
   }
   if (options.steps.surface_test &&
       !isSurface(support, LinePoints(points, candidates, line), scale)) {

@@ -12,8 +12,8 @@ namespace storey::detail {
 ///
 ///     F = sum_blocks E(x) + cost (complexity(x) + lines(x))
 ///
-/// where complexity(x) is `complexityOf` and lines(x) the number of lines that bound any block. A
-/// step
+/// where complexity(x) is `complexityOf` and lines(x) the number of lines that bound any block,
+/// without those that were guessed. A step
 /// - forbids one run of an outline in its block, or the runs that continue each other through
 ///   several blocks, or one line in all blocks, and cuts again: the new outline is the best of all
 ///   that do without it, wherever it then runs;

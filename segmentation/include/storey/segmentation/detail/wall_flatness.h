@@ -21,8 +21,10 @@ std::vector<std::pair<double, double>> runsAlong(const LinePoints& support, cons
 LinePoints atMainHeights(LinePoints support, double noise);
 
 /// Without the runs that turn against the line by more than their noise explains: they are of walls
-/// that the line only crosses.
-LinePoints withoutLeaningRuns(LinePoints support, const WallScale& scale);
+/// that the line only crosses. \param by_normals those whose normals clearly do not turn stay:
+/// panes that are set back in one end of a short wall turn its places alone
+LinePoints withoutLeaningRuns(const std::vector<WallPoint>& points, LinePoints support,
+                              const WallScale& scale, const WallLine& line, bool by_normals);
 
 /// The points that agree with the line through the fuller half of the support: walls of nearly the
 /// same direction further on turn a line by their long lever.

@@ -29,7 +29,9 @@ pcl::Indices drawEvenly(const pcl::Indices& points);
 /// 4. Free pass on what is left.
 /// 5. Both again at heights with much fewer points than the rest, where cells have to be larger.
 /// 6. A locked pass for facades with much fewer points than the others.
-/// 7. Lines that duplicate stronger ones, or that others explain, are dropped.
+/// 7. Walls too short for the votes, where the points left lie densely along a known direction or a
+///    perpendicular of one (`extractShortWalls`).
+/// 8. Lines that duplicate stronger ones, or that others explain, are dropped.
 /// \return lines by support, strongest first
 std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const WallScale& scale,
                                     const WallLineOptions& options);

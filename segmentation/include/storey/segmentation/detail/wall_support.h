@@ -10,13 +10,16 @@ namespace storey::detail {
 
 struct SupportOptions {
   bool fit_direction = true;  ///< false: the direction is locked, only the offset is fitted
+  bool by_normals = false;    ///< whether normals decide if a part of the support turns
+  double min_area = 0.0;      ///< least supported area before a free line is grown along its wall
   MethodSteps steps = {};
 };
 
 /// Finds what supports a line among `candidates` (indices into `points`, all of them free and with
 /// a fitting normal), fits the line to it robustly, and repeats until it settles. The support is of
 /// one flat wall: what lies near the line but is of walls that it crosses, of parallel ones or of
-/// others further on is cut off. There is none if
+/// others further on is cut off, and so is one that goes on at a small angle (`onOneSideOfBend`).
+/// There is none if
 /// - no cells are filled well enough,
 /// - nearly all of it turns against the line, so that it leans over two walls or passes through
 ///   clutter: such a line is refused rather than turned, for walls have better guesses of their

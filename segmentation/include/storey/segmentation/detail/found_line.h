@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <storey/segmentation/detail/point_blocks.h>
+#include <storey/segmentation/detail/wall_points.h>
+
+#include <vector>
+
+namespace storey::detail {
+
+struct FoundLine {
+  WallLine line;
+  std::vector<int> support;  ///< indices of points
+};
+
+/// At 4 degrees from a direction, another is hardly told from it by a short wall.
+constexpr double kNearDirection = 0.06981317;  // rad
+
+/// The points that may be of a line whose first guess this is, ascending: near it, and with normals
+/// within `kVoteAngle` of its own. \param free of each point, whether it is of no line yet
+std::vector<int> candidatesFor(const std::vector<WallPoint>& points, const PointBlocks& blocks,
+                               const std::vector<char>& free, const WallLine& line, double noise);
+
+/// Whether a point lies within `across` of the line, where that has support or a little beyond it,
+/// and its normal agrees.
+bool explains(const WallLine& line, const WallPoint& p, double across, double noise);
+
+/// Directions of the lines, modulo 180 degrees, as angles in [0, pi), ascending. Those that several
+/// lines share, or that have much support, and the perpendiculars of all of them: jambs of notches
+/// and ends of wings are often the only walls of their direction.
+std::vector<double> directionsOf(const std::vector<FoundLine>& lines);
+
+}  // namespace storey::detail

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/found_line.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace storey::detail {
+namespace {
+
+constexpr double kCandidateGate = 12.0;            // noise deviations
+constexpr double kSameAngle = 0.1 * M_PI / 180.0;  // rad, least gap between directions
+constexpr double kAngleDeviations = 4.0;
+constexpr double kMinDirectionShare = 0.04;  // of the supported area
+constexpr double kOutweighs = 3.0;
+constexpr double kSupportMargin = 5.0;  // noise deviations beyond the ends of a line
+
+struct Group {
+  double angle = 0.0;
+  double weight = 0.0;  // 1 / variance
+  double area = 0.0;
+  int lines = 0;
+};
+
+// Lines of one direction, strongest first.
+std::vector<Group> groupsOf(const std::vector<FoundLine>& lines) {
+  std::vector<Group> groups;
+  for (const auto& [line, support] : lines) {  // strongest first
+    double angle = std::atan2(line.normal.y(), line.normal.x());
+    if (angle < 0.0) angle += M_PI;
+    const double deviation = std::max(line.angle_deviation, 1e-5);
+    const double weight = 1.0 / (deviation * deviation);
+    bool found = false;
+    for (Group& group : groups) {
+      double turn = std::remainder(angle - group.angle, M_PI);
+      const double gap = std::max(
+          kSameAngle, kAngleDeviations * std::hypot(deviation, 1.0 / std::sqrt(group.weight)));
+      if (std::abs(turn) > gap) continue;
+      group.angle += turn * weight / (group.weight + weight);
+      group.weight += weight;
+      group.area += line.support_area;
+      ++group.lines;
+      found = true;
+      break;
+    }
+    if (!found) groups.push_back({angle, weight, line.support_area, 1});
+  }
+  return groups;
+}
+
+void addPerpendiculars(std::vector<double>& angles) {
+  const std::vector<double> found = angles;
+  for (const double angle : found) {
+    const double right = angle < M_PI_2 ? angle + M_PI_2 : angle - M_PI_2;
+    const bool known = std::any_of(angles.begin(), angles.end(), [&](double other) {
+      return std::abs(std::remainder(other - right, M_PI)) < kNearDirection;
+    });
+    if (!known) angles.push_back(right);
+  }
+}
+
+}  // namespace
+
+std::vector<int> candidatesFor(const std::vector<WallPoint>& points, const PointBlocks& blocks,
+                               const std::vector<char>& free, const WallLine& line, double noise) {
+  const double gate = kCandidateGate * noise;
+  std::vector<int> candidates;
+  const double agreement = std::cos(kVoteAngle);
+  for (std::size_t block = 0; block < blocks.size(); ++block) {
+    if (!blocks.mayBeNear(block, line.normal, line.offset, gate)) continue;
+    for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) {
+      if (free[i] != 0 && std::abs(line.across(points[i].position)) < gate &&
+          line.normal.dot(points[i].normal) >= agreement) {
+        candidates.push_back(static_cast<int>(i));
+      }
+    }
+  }
+  return candidates;
+}
+
+bool explains(const WallLine& line, const WallPoint& p, double across, double noise) {
+  const double s = line.along(p.position);
+  const double margin = kSupportMargin * noise;
+  return std::abs(line.across(p.position)) < across && line.normal.dot(p.normal) > kMinAgreement &&
+         s > line.s_min - margin && s < line.s_max + margin && p.z > line.z_min - margin &&
+         p.z < line.z_max + margin;
+}
+
+std::vector<double> directionsOf(const std::vector<FoundLine>& lines) {
+  const std::vector<Group> groups = groupsOf(lines);
+  double total = 0.0;
+  for (const Group& group : groups) total += group.area;
+  std::vector<double> angles;
+  for (const Group& group : groups) {
+    if (group.area < kMinDirectionShare * total && group.lines < 2) continue;
+    const bool outweighed = std::any_of(groups.begin(), groups.end(), [&](const Group& other) {
+      return std::abs(std::remainder(other.angle - group.angle, M_PI)) < kNearDirection &&
+             other.area > kOutweighs * group.area;
+    });
+    if (!outweighed) angles.push_back(group.angle);
+  }
+  addPerpendiculars(angles);
+  std::sort(angles.begin(), angles.end());
+  return angles;
+}
+
+}  // namespace storey::detail

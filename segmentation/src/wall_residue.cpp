@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/point_blocks.h>
+#include <storey/segmentation/detail/wall_residue.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace storey::detail {
+namespace {
+
+constexpr double kStrip = 10.0;        // length along a wall, noise deviations
+constexpr double kWindow = 4.0;        // across a wall, noise deviations: 95 % of its points
+constexpr double kBeside = 10.0;       // noise deviations from the middle of the window
+constexpr double kFalseAlarms = 0.01;  // expected in all
+constexpr double kLeastBeside = 0.5;   // points: of none beside a window little is known
+
+// A point of a strip: the number of the strip, and the place across.
+using Placed = std::pair<int, double>;
+
+// ln of Chernoff's bound of the probability that so many points fall where `expected` do, negative.
+double clarityOf(double count, double expected) {
+  return count > expected ? count * std::log(count / expected) - (count - expected) : 0.0;
+}
+
+class Search {
+ public:
+  Search(const std::vector<WallPoint>& points, const std::vector<char>& left, double noise)
+      : points_(points), blocks_(points), noise_(noise) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (left[i] != 0) left_.push_back(i);
+    }
+  }
+
+  std::vector<DensePlace> run(const std::vector<double>& angles) {
+    std::vector<DensePlace> places;
+    for (const double angle : angles) searchDirection(angle, places);
+    const double least = std::log(static_cast<double>(windows_) / kFalseAlarms);
+    const auto unclear = [&](DensePlace& place) {
+      return place.clarity < least || (place.clarity = clarityAmongAll(place)) < least;
+    };
+    places.erase(std::remove_if(places.begin(), places.end(), unclear), places.end());
+    std::stable_sort(places.begin(), places.end(), [](const DensePlace& a, const DensePlace& b) {
+      return a.clarity > b.clarity;
+    });
+    return places;
+  }
+
+ private:
+  // Strips overlap by half, so that every wall as long as a strip and a half fills one.
+  void searchDirection(double angle, std::vector<DensePlace>& places) {
+    const Eigen::Vector2d normal(std::cos(angle), std::sin(angle));
+    const Eigen::Vector2d tangent(-normal.y(), normal.x());
+    const double agreement = std::cos(kVoteAngle);
+    const double half = 0.5 * kStrip * noise_;
+    std::vector<Placed> placed;
+    for (const std::size_t i : left_) {
+      const WallPoint& p = points_[i];
+      if (normal.dot(p.normal) < agreement) continue;
+      const int strip = static_cast<int>(std::floor(tangent.dot(p.position) / half));
+      for (const int of : {strip - 1, strip}) placed.emplace_back(of, normal.dot(p.position));
+    }
+    std::sort(placed.begin(), placed.end());
+    for (std::size_t from = 0, to = 0; from < placed.size(); from = to) {
+      const int strip = placed[from].first;
+      while (to < placed.size() && placed[to].first == strip) ++to;
+      std::vector<double> across;
+      for (std::size_t k = from; k < to; ++k) across.push_back(placed[k].second);
+      DensePlace place = clearestOf(across);
+      place.normal = normal;
+      place.s_min = half * strip;
+      place.s_max = place.s_min + 2.0 * half;
+      if (place.clarity > 0.0) places.push_back(place);
+    }
+  }
+
+  // The clearest window of a strip.
+  DensePlace clearestOf(const std::vector<double>& across) {
+    DensePlace best;
+    const double width = kWindow * noise_;
+    const auto countIn = [&](double low, double high) {
+      return static_cast<double>(std::lower_bound(across.begin(), across.end(), high) -
+                                 std::lower_bound(across.begin(), across.end(), low));
+    };
+    for (const double low : across) {
+      ++windows_;
+      const double middle = low + 0.5 * width;
+      const double count = countIn(low, low + width);
+      const double expected = expectedOf(countIn(middle - kBeside * noise_, low),
+                                         countIn(low + width, middle + kBeside * noise_));
+      const double clarity = clarityOf(count, expected);
+      if (clarity <= best.clarity) continue;
+      best.clarity = clarity;
+      best.offset = middle;
+    }
+    return best;
+  }
+
+  // Of the points in the window, by the side with more: clutter may end there.
+  static double expectedOf(double one_side, double other_side) {
+    constexpr double kSide = kBeside - 0.5 * kWindow;
+    return std::max(kLeastBeside, std::max(one_side, other_side) * kWindow / kSide);
+  }
+
+  // Counting beside it the points of walls too: what strays from one is no wall of its own.
+  double clarityAmongAll(const DensePlace& place) const {
+    const Eigen::Vector2d tangent(-place.normal.y(), place.normal.x());
+    const double agreement = std::cos(kVoteAngle);
+    double on = 0.0;
+    double sides[2] = {0.0, 0.0};
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      if (!blocks_.mayBeNear(b, place.normal, place.offset, kBeside * noise_) ||
+          !blocks_.mayBeNear(b, tangent, 0.5 * (place.s_min + place.s_max), kStrip * noise_))
+        continue;
+      for (std::size_t i = blocks_.begin(b); i < blocks_.end(b); ++i) {
+        const WallPoint& p = points_[i];
+        const double s = tangent.dot(p.position);
+        if (s < place.s_min || s > place.s_max || place.normal.dot(p.normal) < agreement) continue;
+        const double d = (place.normal.dot(p.position) - place.offset) / noise_;
+        if (std::abs(d) <= 0.5 * kWindow) {
+          on += 1.0;
+        } else if (std::abs(d) < kBeside) {
+          sides[d > 0.0 ? 0 : 1] += 1.0;
+        }
+      }
+    }
+    return clarityOf(on, expectedOf(sides[0], sides[1]));
+  }
+
+  const std::vector<WallPoint>& points_;
+  PointBlocks blocks_;
+  double noise_;
+  std::vector<std::size_t> left_;
+  std::size_t windows_ = 0;  // tests made
+};
+
+}  // namespace
+
+std::vector<DensePlace> findDensePlaces(const std::vector<WallPoint>& points,
+                                        const std::vector<char>& left,
+                                        const std::vector<double>& angles, double noise) {
+  return Search(points, left, noise).run(angles);
+}
+
+}  // namespace storey::detail
