@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What passes between the stages, through files and back.
 #include <gtest/gtest.h>
+#include <storey/segmentation/detail/point_classes.h>
 
 #include <cmath>
 #include <cstring>
@@ -45,7 +46,7 @@ StageCloud makeCloud() {
     if (i % 10 == 0) p.normal_x = std::numeric_limits<float>::quiet_NaN();  // no normal found
     cloud.points->push_back(p);
     cloud.confidences.push_back(static_cast<float>(i) / 199.0f);
-    cloud.groups(Class).push_back(i % 7 - 1);
+    cloud.groups(Class).push_back(i % (detail::kNumPointClasses + 1) - 1);
     cloud.groups(Slice).push_back(i - 1);
     cloud.groups(Direction).push_back(i % 4 - 1);
     cloud.groups(Region).push_back(i / 2 - 1);
@@ -95,7 +96,8 @@ TEST(StageFiles, GroupsThatDoNotExistAreRefused) {
   const std::string path = directory.file("a.pcd");
   for (const Group group : {Class, Slice, Direction}) {
     StageCloud cloud = makeCloud();
-    cloud.groups(group)[3] = group == Class ? detail::kNumPointClasses : group == Slice ? 1200 : 3;  // one too many
+    const int one_too_many = group == Class ? detail::kNumPointClasses : group == Slice ? 1200 : 3;
+    cloud.groups(group)[3] = one_too_many;
     writeStageCloud(path, cloud);
     try {
       readStageCloud(path);
