@@ -47,7 +47,7 @@ bool parseOptions(int argc, char** argv, Options& o) {
   stages::declareAttitude(line, o.attitude);
   stages::declareKeptShare(line, o.kept_share);
   stages::declareMethod(line, o.method);
-  stages::declareBlocks(line, o.block_cost, o.simplicity);
+  stages::declareBlocks(line, o.blocks, o.simplicity);
   stages::declareMaxTypes(line, o.simplicity);
   stages::declareTradeOff(line, o.simplicity);
   stages::declareThickness(line, o.slices);

@@ -23,7 +23,7 @@ struct Options {
   stages::AttitudeOptions attitude;
   double kept_share = stages::kDefaultKeptShare;
   Method method = Method::Building;
-  double block_cost = 0.0;  ///< wall area, squared unit of the cloud
+  stages::BlockOptions blocks;
   stages::SliceOptions slices;
   stages::SimplicityOptions simplicity;
   stages::ModelOptions model;

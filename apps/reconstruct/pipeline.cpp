@@ -54,7 +54,7 @@ class Pipeline {
     observers_.cloud("03_directions", cloud);
     if (options_.method == Method::Building) {
       stage("floorplans", [&] {
-        return extractBlocks(cloud, options_.block_cost, options_.simplicity, options_.threads,
+        return extractBlocks(cloud, options_.blocks, options_.simplicity, options_.threads,
                              result_.blocks, result_.building, options_.steps);
       });
     } else {

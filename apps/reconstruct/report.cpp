@@ -64,7 +64,8 @@ Json describeParameters(const Options& o) {
                     : a.side == SpaceSide::Inside ? "inside"
                                                   : "outside"},
           {"method", o.method == Method::Paper ? "paper" : "building"},
-          {"block_cost", o.block_cost},
+          {"block_cost", o.blocks.block_cost},
+          {"min_wall_area", o.blocks.min_wall_area},
           {"noise", a.noise},
           {"kept_share", o.kept_share},
           {"slice_thickness", o.slices.thickness},

@@ -7,8 +7,9 @@
 
 namespace storey::stages {
 
-std::string extractBlocks(StageCloud& cloud, double block_cost, const SimplicityOptions& simplicity,
-                          unsigned int threads, std::vector<FloorplanLayer>& blocks,
+std::string extractBlocks(StageCloud& cloud, const BlockOptions& options,
+                          const SimplicityOptions& simplicity, unsigned int threads,
+                          std::vector<FloorplanLayer>& blocks,
                           storey::detail::BuildingFloorplans& found,
                           const storey::detail::MethodSteps& steps) {
   ensureScale(cloud);
@@ -17,15 +18,18 @@ std::string extractBlocks(StageCloud& cloud, double block_cost, const Simplicity
   extraction.setIndices(pcl::make_shared<pcl::Indices>(planarPoints(cloud)));
   extraction.setNoise(cloud.state.noise);
   extraction.setDensity(cloud.state.density);
-  extraction.setBlockCost(block_cost);
+  extraction.setBlockCost(options.block_cost);
+  extraction.setMinWallArea(options.min_wall_area);
   extraction.setMaxFaces(static_cast<std::size_t>(simplicity.max_faces));
   extraction.setMaxTypes(static_cast<std::size_t>(simplicity.max_types));
   extraction.setWholeTradeOff(simplicity.trade_off);
   extraction.setSteps(steps);
   extraction.setNumberOfThreads(threads);
   if (!extraction.extract(blocks)) {
-    refuse(cloud, "the walls enclose no building",
-           "is half of it missing, or the vertical wrong (--up)?");
+    refuse(
+        cloud, "the walls enclose no building",
+        "is half of it missing, the vertical wrong (--up), or are its walls small beside all of it "
+        "(--min-wall-area)?");
   }
   found = extraction.getResult();
   return format("%zu walls, %zu cells, %zu layers in %zu blocks", found.walls.size(),

@@ -12,6 +12,12 @@ namespace storey::stages {
 /// Where the floorplans come from: the walls of the whole building, or slice by slice as the paper.
 enum class Method { Building, Paper };
 
+/// What counts, for method building. Areas in the squared unit of the cloud, 0: derived.
+struct BlockOptions {
+  double block_cost = 0.0;     ///< wall area that one more block must explain
+  double min_wall_area = 0.0;  ///< least area of a wall that has points
+};
+
 /// How simple a model shall be. 0: no limit.
 struct SimplicityOptions {
   int max_types = 0;       ///< of floorplans
@@ -20,11 +26,11 @@ struct SimplicityOptions {
 };
 
 /// The floorplans of blocks from the walls of the whole building.
-/// \param block_cost wall area that one more block must explain; 0: derived
 /// \param steps for experiments: those of the method that are left out
 /// \return a line that says what was found \throws io::Failure (BadInput) if there is no building
-std::string extractBlocks(StageCloud& cloud, double block_cost, const SimplicityOptions& simplicity,
-                          unsigned int threads, std::vector<FloorplanLayer>& blocks,
+std::string extractBlocks(StageCloud& cloud, const BlockOptions& options,
+                          const SimplicityOptions& simplicity, unsigned int threads,
+                          std::vector<FloorplanLayer>& blocks,
                           storey::detail::BuildingFloorplans& found,
                           const storey::detail::MethodSteps& steps = {});
 

@@ -56,8 +56,11 @@ void declareLinking(cli::CommandLine& line, SliceOptions& o) {
                        "paper's Algorithm 1)");
 }
 
-void declareBlocks(cli::CommandLine& line, double& block_cost, SimplicityOptions& o) {
-  line.number("block-cost", block_cost, cli::kNonNegative,
+void declareBlocks(cli::CommandLine& line, BlockOptions& blocks, SimplicityOptions& o) {
+  line.number(
+      "min-wall-area", blocks.min_wall_area, cli::kNonNegative,
+      "method building: least area of a wall that has points, squared length [0 = derived]");
+  line.number("block-cost", blocks.block_cost, cli::kNonNegative,
               "method building: wall area that one more block must explain, squared length [0 = "
               "derived]");
   line.whole("max-faces", o.max_faces, 0,

@@ -23,7 +23,7 @@ void declareKeptShare(cli::CommandLine& line, double& kept_share);
 void declareMethod(cli::CommandLine& line, Method& method);
 void declareThickness(cli::CommandLine& line, SliceOptions& options);
 void declareLinking(cli::CommandLine& line, SliceOptions& options);
-void declareBlocks(cli::CommandLine& line, double& block_cost, SimplicityOptions& simplicity);
+void declareBlocks(cli::CommandLine& line, BlockOptions& options, SimplicityOptions& simplicity);
 void declareMaxTypes(cli::CommandLine& line, SimplicityOptions& simplicity);
 void declareModel(cli::CommandLine& line, ModelOptions& options);
 void declareTradeOff(cli::CommandLine& line, SimplicityOptions& simplicity);

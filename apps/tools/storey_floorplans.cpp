@@ -16,7 +16,7 @@ struct Request {
   std::string input;
   std::string output;
   stages::Method method = stages::Method::Building;
-  double block_cost = 0.0;
+  stages::BlockOptions blocks;
   stages::SimplicityOptions simplicity;
   stages::SliceOptions slices;
   unsigned int threads = 0;
@@ -33,7 +33,7 @@ bool parse(int argc, char** argv, Request& r) {
   line.argument("in", r.input, "the cloud");
   line.argument("out", r.output, "the floorplans (.geojson), in the upright frame of the cloud");
   stages::declareMethod(line, r.method);
-  stages::declareBlocks(line, r.block_cost, r.simplicity);
+  stages::declareBlocks(line, r.blocks, r.simplicity);
   stages::declareMaxTypes(line, r.simplicity);
   stages::declareLinking(line, r.slices);
   line.threads(r.threads);
@@ -53,8 +53,7 @@ int run(int argc, char** argv) {
   std::string found;
   if (r.method == stages::Method::Building) {
     storey::detail::BuildingFloorplans building;
-    found =
-        extractBlocks(cloud, r.block_cost, r.simplicity, r.threads, floorplans.layers, building);
+    found = extractBlocks(cloud, r.blocks, r.simplicity, r.threads, floorplans.layers, building);
   } else {
     stages::SliceFloorplans slices;
     found = outlineSlices(cloud, r.slices.linking, r.threads, slices);

@@ -10,7 +10,7 @@ namespace storey::bench {
 namespace {
 
 constexpr double kPitch = 6.0;  // of teeth and of gaps: 60 deviations of the noise
-constexpr double kHeight = 6.0;
+constexpr double kHeight = kToothArea / kPitch;
 
 // One long side from x = 0 to the given length: how far each tooth and each gap is from the middle.
 synth::Outline side(std::size_t teeth, double length, synth::Random& random) {

@@ -11,6 +11,9 @@
 
 namespace storey::bench {
 
+/// About the area of the walls of a tooth of `toothedBlock`.
+constexpr double kToothArea = 36.0;
+
 /// A block whose two long sides are cut into teeth of all depths, so that no two of its walls lie
 /// in one plane. \param walls a multiple of 8
 std::vector<FloorplanLayer> toothedBlock(std::size_t walls);

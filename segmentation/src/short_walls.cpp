@@ -16,7 +16,6 @@ constexpr double kStrayed = 5.0;     // noise deviations: nearly all of panes an
 constexpr double kOn = 2.5;          // noise deviations across a wall
 constexpr std::size_t kFewest = 10;  // points of a place, for their heights
 constexpr double kDense = 0.3;       // of the density of walls at the same heights
-constexpr double kLeastArea = 1.0;   // of the least area of a wall
 constexpr std::size_t kMaxLines = 400;
 
 // Of each point that no line took and that lies near none: whether it may be of a wall not found.
@@ -98,7 +97,7 @@ void extractShortWalls(const std::vector<WallPoint>& points, const PointBlocks& 
   for (const auto& [support, place] : order) {
     if (support == 0 || lines.size() >= kMaxLines) return;
     FoundLine found = fit(place);
-    if (found.support.empty() || found.line.support_area < kLeastArea * options.min_area) continue;
+    if (found.support.empty() || found.line.support_area < options.min_area) continue;
     for (const int i : found.support) {
       left[static_cast<std::size_t>(i)] = 0;
       free[static_cast<std::size_t>(i)] = 0;
