@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 namespace storey::detail {
@@ -50,34 +51,55 @@ class PatchGrowing {
  public:
   PatchGrowing(const std::vector<OrientedPoint>& points, const std::vector<char>& counts,
                const WallScale& scale)
-      : points_(points), side_(kCellSide * supportCellSize(scale)), reach_(kReach * scale.noise) {
-    result_.of.assign(points.size(), PlanarPatches::kNone);
+      : side_(kCellSide * supportCellSize(scale)), reach_(kReach * scale.noise) {
     std::vector<std::size_t> cell_of(points.size(), GridCells::kNone);
+    std::vector<std::size_t> held;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (counts[i] == 0) continue;
       const Eigen::Vector3d p = points[i].position.cast<double>();
       cell_of[i] =
           cells_.add({cellAlong(p.x(), side_), cellAlong(p.y(), side_), cellAlong(p.z(), side_)});
+      held.resize(cells_.size(), 0);
+      ++held[cell_of[i]];
     }
-    members_.resize(cells_.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (cell_of[i] != GridCells::kNone) members_[cell_of[i]].push_back(i);
-    }
+    sortByCell(points, cell_of, held);
     reached_.assign(cells_.size(), PlanarPatches::kNone);
+    result_.of.assign(points.size(), PlanarPatches::kNone);
   }
 
   PlanarPatches find() {
     for (const std::size_t cell : seeds()) grow(cell);
+    for (std::size_t k = 0; k < patch_.size(); ++k) result_.of[number_[k]] = patch_[k];
     return std::move(result_);
   }
 
  private:
+  // The points cell by cell, in memory too: cells are visited again and again.
+  void sortByCell(const std::vector<OrientedPoint>& points, const std::vector<std::size_t>& cell_of,
+                  const std::vector<std::size_t>& held) {
+    first_.assign(held.size() + 1, 0);
+    std::partial_sum(held.begin(), held.end(), first_.begin() + 1);
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    points_.resize(first_.back());
+    number_.resize(first_.back());
+    patch_.assign(first_.back(), PlanarPatches::kNone);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (cell_of[i] == GridCells::kNone) continue;
+      const std::size_t place = next[cell_of[i]]++;
+      points_[place] = points[i];
+      number_[place] = i;
+    }
+  }
+  double heldIn(std::size_t cell) const {
+    return static_cast<double>(first_[cell + 1] - first_[cell]);
+  }
+
   // Mean of the normals of the free points in a cell, all turned to one side.
   Eigen::Vector3d meanNormal(std::size_t cell) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double count = 0.0;
-    for (const std::size_t i : members_[cell]) {
-      if (result_.of[i] != PlanarPatches::kNone) continue;
+    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+      if (patch_[i] != PlanarPatches::kNone) continue;
       const Eigen::Vector3d n = points_[i].normal.cast<double>();
       sum += n.dot(sum) < 0.0 ? Eigen::Vector3d(-n) : n;
       count += 1.0;
@@ -89,7 +111,7 @@ class PatchGrowing {
   std::vector<std::size_t> seeds() const {
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t c = 0; c < cells_.size(); ++c) {
-      if (static_cast<double>(members_[c].size()) < kMinInCell) continue;
+      if (heldIn(c) < kMinInCell) continue;
       order.emplace_back(-meanNormal(c).norm(), c);
     }
     std::sort(order.begin(), order.end());
@@ -101,12 +123,12 @@ class PatchGrowing {
   // Takes the free points of a cell that lie on the plane.
   double take(std::size_t cell, const Plane& plane, std::size_t patch, Moments& moments) {
     double taken = 0.0;
-    for (const std::size_t i : members_[cell]) {
-      if (result_.of[i] != PlanarPatches::kNone) continue;
+    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+      if (patch_[i] != PlanarPatches::kNone) continue;
       const Eigen::Vector3d p = points_[i].position.cast<double>();
       if (std::abs(plane.normal.dot(p - plane.center)) > reach_) continue;
       if (std::abs(plane.normal.dot(points_[i].normal.cast<double>())) < kAgreement) continue;
-      result_.of[i] = patch;
+      patch_[i] = patch;
       moments.add(p);
       taken += 1.0;
     }
@@ -119,8 +141,8 @@ class PatchGrowing {
     if (!(plane.normal.norm() > 0.0)) return false;
     plane.normal.normalize();
     Moments moments;
-    for (const std::size_t i : members_[cell]) {
-      if (result_.of[i] == PlanarPatches::kNone) moments.add(points_[i].position.cast<double>());
+    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+      if (patch_[i] == PlanarPatches::kNone) moments.add(points_[i].position.cast<double>());
     }
     plane.center = moments.center();
     return moments.count >= kMinInCell;
@@ -139,7 +161,7 @@ class PatchGrowing {
     for (std::size_t q = 0; q < queue.size(); ++q) {
       if (take(queue[q], plane, patch, moments) < kMinInCell) continue;
       filled += 1.0;
-      held += static_cast<double>(members_[queue[q]].size());
+      held += heldIn(queue[q]);
       queueAround(queue[q], patch, queue);
       if (moments.count < next_fit) continue;
       next_fit = 2.0 * moments.count;
@@ -161,12 +183,14 @@ class PatchGrowing {
     }
   }
 
-  const std::vector<OrientedPoint>& points_;
   double side_;
   double reach_;
   GridCells cells_;
-  std::vector<std::vector<std::size_t>> members_;
-  std::vector<std::size_t> reached_;  // the last patch that did, of each cell
+  std::vector<std::size_t> first_;     // of each cell, of the points that follow
+  std::vector<OrientedPoint> points_;  // those that count, cell by cell
+  std::vector<std::size_t> number_;    // of each among all points
+  std::vector<std::size_t> patch_;     // of each, `PlanarPatches::kNone` while it is free
+  std::vector<std::size_t> reached_;   // the last patch that did, of each cell
   PlanarPatches result_;
 };
 
