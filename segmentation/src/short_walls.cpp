@@ -72,8 +72,11 @@ FoundLine fitAt(const DensePlace& place, const std::vector<WallPoint>& points,
   WallScale local = scale;
   local.density = wallDensityAt(place, points, candidates, density, scale.noise);
   if (!(local.density > 0.0)) return found;
-  found.support =
-      fitToSupport(points, candidates, local, {false, true, 0.0, options.steps}, found.line);
+  SupportOptions locked;
+  locked.fit_direction = false;
+  locked.by_normals = true;
+  locked.steps = options.steps;
+  found.support = fitToSupport(points, candidates, local, locked, found.line);
   return found;
 }
 

@@ -4,65 +4,17 @@
 #include <storey/surface/model_check.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <random>
 
+#include "solids.h"
 #include "stacks.h"
 
 namespace {
 
 using namespace storey;
 using namespace storey::test;
-
-std::string problemsOf(const ModelCheck& check) {
-  const auto append = [](std::string all, const std::string& p) {
-    return std::move(all) + p + "\n";
-  };
-  return std::accumulate(check.problems.begin(), check.problems.end(), std::string(), append);
-}
-
-// The truth, by the shoelace formula.
-double layerVolume(const std::vector<FloorplanLayer>& layers) {
-  double sum = 0.0;
-  for (const FloorplanLayer& layer : layers) sum += area(layer.plan) * (layer.z_max - layer.z_min);
-  return sum;
-}
-
-// Rounding moves each wall by at most one unit, each cap by half a unit.
-double volumeTolerance(const std::vector<FloorplanLayer>& layers, double grid) {
-  double sum = 0.0;
-  for (const FloorplanLayer& layer : layers) {
-    sum += perimeter(layer.plan) * (layer.z_max - layer.z_min) + area(layer.plan);
-  }
-  return sum * grid;
-}
-
-std::size_t countLabel(const PolyhedralModel& model, FaceLabel label) {
-  return static_cast<std::size_t>(
-      std::count_if(model.faces.begin(), model.faces.end(),
-                    [&](const PolyhedralFace& f) { return f.label == label; }));
-}
-
-struct Expected {
-  std::size_t vertices;
-  std::size_t faces;
-  int shells;
-  int euler;
-};
-
-void expectSolid(const std::vector<FloorplanLayer>& layers, const Expected& expected) {
-  const PolyhedralModel model = extrudeFloorplans(layers);
-  const ModelCheck check = checkModel(model);
-  EXPECT_TRUE(check.ok()) << problemsOf(check);
-  EXPECT_EQ(model.vertices.size(), expected.vertices);
-  EXPECT_EQ(model.faces.size(), expected.faces);
-  EXPECT_EQ(model.num_shells, expected.shells);
-  EXPECT_EQ(check.euler, expected.euler);
-  EXPECT_NEAR(check.volume, layerVolume(layers), volumeTolerance(layers, model.grid));
-}
 
 TEST(Extrusion, Box) {
   const auto layers = std::vector<FloorplanLayer>{layer(1, 4, {rectangle(0, 0, 10, 5)})};
@@ -158,73 +110,6 @@ TEST(Extrusion, CoplanarWallsAreOnePolygonAtAnyYaw) {
 
 TEST(Extrusion, ComponentsAreShells) {
   expectSolid({layer(0, 3, {rectangle(0, 0, 2, 2), rectangle(5, 5, 7, 7)})}, {16, 12, 2, 4});
-}
-
-TEST(Extrusion, BlocksThatTouchAlongAVerticalEdgeAreTwoShells) {
-  expectSolid({layer(0, 3, {rectangle(0, 0, 5, 5), rectangle(5, 5, 9, 9)})}, {16, 12, 2, 4});
-  // of different heights: no vertex in the middle of the taller one's edge
-  expectSolid({layer(0, 3, {rectangle(0, 0, 5, 5), rectangle(5, 5, 9, 9)}),
-               layer(3, 5, {rectangle(5, 5, 9, 9)})},
-              {16, 12, 2, 4});
-}
-
-TEST(Extrusion, BlocksThatTouchAtAPointAreTwoShells) {
-  expectSolid({layer(0, 3, {rectangle(0, 0, 5, 5)}), layer(3, 5, {rectangle(5, 5, 9, 9)})},
-              {16, 12, 2, 4});
-}
-
-TEST(Extrusion, StoreyThatTouchesTheLowerOneAlongALineIsAShell) {
-  expectSolid({layer(0, 3, {rectangle(0, 0, 5, 5)}), layer(3, 5, {rectangle(5, 1, 9, 4)})},
-              {16, 12, 2, 4});
-}
-
-TEST(Extrusion, CornerThatTouchesAWallIsAShell) {
-  expectSolid({layer(0, 3, {rectangle(0, 0, 10, 4), ring({{5, 4}, {7, 6}, {5, 8}, {3, 6}})})},
-              {16, 12, 2, 4});
-}
-
-// A part that touches itself is made one solid by a plug: closed, genus as in space, and as good
-// as the same volume.
-void expectPlugged(const std::vector<FloorplanLayer>& layers, int shells, int euler) {
-  const PolyhedralModel model = extrudeFloorplans(layers);
-  const ModelCheck check = checkModel(model);
-  EXPECT_TRUE(check.ok()) << problemsOf(check);
-  EXPECT_EQ(model.num_shells, shells);
-  EXPECT_EQ(check.euler, euler);
-  EXPECT_NEAR(check.volume, layerVolume(layers), 1e-3 * check.volume);
-  EXPECT_TRUE(std::any_of(model.faces.begin(), model.faces.end(),
-                          [](const PolyhedralFace& f) { return f.hypothetical; }));
-}
-
-TEST(Extrusion, SelfContactAlongAVerticalEdgeIsPlugged) {
-  expectPlugged({layer(0, 3, {rectangle(0, 0, 5, 5), rectangle(5, 5, 9, 9)}),
-                 layer(3, 5, {rectangle(0, 0, 9, 9)})},
-                1, 2);  // the two legs and the plug are one leg
-}
-
-TEST(Extrusion, SelfContactAlongAHorizontalEdgeIsPlugged) {
-  // A block hangs from the top storey beside the lower one and touches its upper edge; the two
-  // are also connected by a leg: with the contact filled that is a handle.
-  expectPlugged({layer(0, 3, {rectangle(0, 0, 4, 8)}),
-                 layer(3, 6, {rectangle(4, 0, 8, 4), rectangle(0, 6, 4, 8)}),
-                 layer(6, 9, {rectangle(0, 0, 8, 8)})},
-                1, 0);
-}
-
-TEST(Extrusion, SelfContactAtAPointIsPlugged) {
-  FloorplanLayer low = layer(0, 3, {rectangle(0, 0, 10, 10)});
-  FloorplanLayer high = layer(3, 6, {rectangle(0, 0, 10, 10)});
-  low.plan.components[0].outer = ring({{0, 0}, {10, 0}, {10, 10}, {5, 10}, {5, 5}, {0, 5}});
-  high.plan.components[0].outer = ring({{0, 0}, {5, 0}, {5, 5}, {10, 5}, {10, 10}, {0, 10}});
-  const ModelCheck check = checkModel(extrudeFloorplans({low, high}));
-  EXPECT_TRUE(check.ok()) << problemsOf(check);
-}
-
-TEST(Extrusion, CourtyardsThatTouchAreSeparated) {
-  FloorplanLayer yards = layer(0, 3, {rectangle(0, 0, 10, 10)});
-  yards.plan.components[0].holes = {reversed(rectangle(2, 2, 5, 5)),
-                                    reversed(rectangle(5, 5, 8, 8))};
-  expectPlugged({yards}, 1, -2);  // genus 2
 }
 
 TEST(Extrusion, ClosedCavityIsAShellTurnedInwards) {
@@ -380,7 +265,8 @@ TEST(Extrusion, CoarseGrid) {
   }
 }
 
-TEST(Extrusion, SixtyLayersTakeAFractionOfASecond) {
+// Every ten layers are equal: six blocks of forty walls.
+TEST(Extrusion, SixtyLayersOfFortyWalls) {
   std::vector<FloorplanLayer> layers;
   for (int i = 0; i < 60; ++i) {
     FloorplanRing outline;
@@ -392,12 +278,10 @@ TEST(Extrusion, SixtyLayersTakeAFractionOfASecond) {
     outline.edges.resize(40);
     layers.push_back(layer(0.5 * i, 0.5 * (i + 1), {outline}));
   }
-  const auto start = std::chrono::steady_clock::now();
   const PolyhedralModel model = extrudeFloorplans(layers);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  RecordProperty("milliseconds", static_cast<int>(1e3 * seconds.count()));
-  EXPECT_FALSE(model.empty());
-  EXPECT_LT(seconds.count(), 5.0);  // 0.05 s on an idle machine; loaded and with sanitizers 20 x
+  const ModelCheck check = checkModel(model);
+  EXPECT_TRUE(check.ok()) << problemsOf(check);
+  EXPECT_NEAR(check.volume, layerVolume(layers), volumeTolerance(layers, model.grid));
 }
 
 }  // namespace
