@@ -201,7 +201,8 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
     extractThinParts(points, blocks, scale, options, oriented, all_around, free, lines);
   if (options.steps.thin_facades && !oriented.empty())
     extractThinFacades(points, blocks, scale, options, oriented, free, lines);
-  if (!oriented.empty()) extractShortWalls(points, blocks, scale, options, oriented, free, lines);
+  if (options.steps.short_walls && !oriented.empty())
+    extractShortWalls(points, blocks, scale, options, oriented, free, lines);
 
   std::stable_sort(lines.begin(), lines.end(), [](const FoundLine& a, const FoundLine& b) {
     return a.line.support > b.line.support;

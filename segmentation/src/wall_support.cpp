@@ -216,7 +216,7 @@ LinePoints grownAlong(const std::vector<WallPoint>& points, const std::vector<in
   for (int round = 0; round < kGrowths; ++round) {
     support = inFullCells(pool.within(cut), scale);
     if (options.steps.main_tiles) support = inMainTiles(std::move(support), scale, true);
-    support = onOneSideOfBend(points, std::move(support), scale, line);
+    if (options.steps.bends) support = onOneSideOfBend(points, std::move(support), scale, line);
     if (support.empty()) return support;
     fitLine(support, cut, true, line);
     pool.moveTo(line);
@@ -227,11 +227,12 @@ LinePoints grownAlong(const std::vector<WallPoint>& points, const std::vector<in
 // A locked direction may be that of another wall, whose line would lean over this one; or the line
 // meets another wall further on, maybe at a small angle.
 LinePoints endedAlong(const std::vector<WallPoint>& points, LinePoints support, double cut,
-                      const WallScale& scale, WallLine& line) {
+                      const WallScale& scale, const SupportOptions& options, WallLine& line) {
   const auto size = static_cast<double>(support.size());
   support = flatStretch(std::move(support), scale.noise);
   if (static_cast<double>(support.size()) < kMinFlatShare * size) return {};
   fitLine(support, cut, false, line);
+  if (!options.steps.bends) return support;
   support = onOneSideOfBend(points, std::move(support), scale, line);
   if (!support.empty()) fitLine(support, cut, false, line);
   return support;
@@ -326,7 +327,7 @@ std::vector<int> fitToSupport(const std::vector<WallPoint>& points,
       if (line.support_area < options.min_area) return {};  // clutter would only grow into a wall
     }
     support = free ? grownAlong(points, candidates, cut, scale, options, line)
-                   : endedAlong(points, std::move(support), cut, scale, line);
+                   : endedAlong(points, std::move(support), cut, scale, options, line);
     if (support.empty()) return {};
   }
   if (options.steps.surface_test &&

@@ -13,7 +13,9 @@ struct MethodSteps {
   bool main_tiles = true;         ///< parallel walls told apart by the medians of tiles
   bool setbacks = true;           ///< storeys set back by a few deviations told apart
   bool flatness = true;           ///< points that are not of one flat wall cut off, along it
+  bool bends = true;              ///< walls ended where they bend
   bool surface_test = true;       ///< lines about which points lie evenly refused
+  bool short_walls = true;        ///< jambs and the like searched in what no line took
   bool leftovers = true;          ///< lines that others explain dropped
   // The labelling of the cells.
   bool hypotheses = true;       ///< lines for walls that were not seen
