@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// storey_performance FOLDER [--quick] [CLOUDS]: time and memory of every stage for clouds of rising
-// size, beside PCL's and CGAL's algorithms and the floor of the machine in the same run; how they
-// grow with slices and walls; real clouds. Prints the tables of doc/performance.md.
-#include <pcl/console/print.h>
+// Time and memory of every stage for clouds of rising size, beside PCL's and CGAL's algorithms and
+// the floor of the machine in the same run; how they grow with slices and walls; real clouds.
 #include <unistd.h>
 
 #include <cstdio>
@@ -17,6 +15,7 @@
 #include "bench/performance/slopes.h"
 #include "bench/performance/stages.h"
 #include "bench/performance/threads.h"
+#include "cli/command_line.h"
 #include "io/cloud_reader.h"
 #include "io/failure.h"
 #include "synth/buildings.h"
@@ -91,15 +90,17 @@ void measureSize(std::size_t size, const std::string& folder, bool quick, Result
 }
 
 int run(int argc, char** argv) {
-  std::vector<std::string> words(argv + 1, argv + argc);
-  const bool quick = words.size() > 1 && words[1] == "--quick";
-  if (quick) words.erase(words.begin() + 1);
-  if (words.empty() || words.size() > 2) {
-    throw io::Failure(io::Usage, "", "expected a folder for clouds and tables",
-                      "storey_performance FOLDER [--quick] [CLOUDS]");
-  }
-  const std::string& folder = words[0];
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  std::string folder;
+  std::string clouds;
+  bool quick = false;
+  cli::CommandLine line("storey_performance", {"FOLDER [CLOUDS] [options]"},
+                        "Measures the time and the memory of all stages, beside other programs', "
+                        "and prints the tables of doc/performance.md.");
+  line.argument("folder", folder, "for the clouds that are made and for tables as CSV");
+  line.argument("clouds", clouds, "a folder of real .ply clouds, measured too");
+  line.flag("quick", quick, "only up to a million points, without what is slow");
+  if (!line.parse(argc, argv)) return io::Ok;
+  if (folder.empty()) line.fail("expected a folder for clouds and tables");
   std::vector<std::size_t> sizes = {100000, 1000000, 4000000, 20000000};
   if (quick) sizes.resize(2);
   Results results(sizes);
@@ -112,7 +113,7 @@ int run(int argc, char** argv) {
   results.writeShares(folder + "/performance_shares.csv");
   printSpeedUps(results);
   measureSlopes(folder, quick);
-  measureRealClouds(words.size() > 1 ? words[1] : "", folder + "/performance");
+  measureRealClouds(clouds, folder + "/performance");
   return io::Ok;
 }
 
@@ -120,5 +121,5 @@ int run(int argc, char** argv) {
 }  // namespace storey::bench
 
 int main(int argc, char** argv) {
-  return storey::io::runMain("storey_performance", [&] { return storey::bench::run(argc, argv); });
+  return storey::cli::runMain("storey_performance", [&] { return storey::bench::run(argc, argv); });
 }
