@@ -19,6 +19,7 @@ std::string buildModel(StageCloud& cloud, const std::vector<FloorplanLayer>& lay
     reconstruction.setBlocks(layers);
   }
   reconstruction.setNoise(cloud.state.noise);
+  reconstruction.setDensity(cloud.state.density);
   reconstruction.setSmoothness(options.smoothness);
   reconstruction.setLabelCost(options.label_cost);
   reconstruction.setMaxTypes(static_cast<std::size_t>(max_types));
