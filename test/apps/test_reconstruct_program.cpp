@@ -42,9 +42,9 @@ class ReconstructProgram : public ::testing::Test {
   static Outcome run(const std::string& arguments, const std::string& prefix = "") {
     const TemporaryDirectory scratch;
     const std::string command = prefix + std::string(STOREY_RECONSTRUCT) + " " +
-                                directory_->file("cloud.ply") + " -q --threads 1 -o " +
-                                scratch.file("out") + " " + arguments + " >" +
-                                scratch.file("stdout") + " 2>" + scratch.file("stderr");
+                                directory_->file("cloud.ply") + " -q -o " + scratch.file("out") +
+                                " " + arguments + " >" + scratch.file("stdout") + " 2>" +
+                                scratch.file("stderr");
     const int result = std::system(command.c_str());
     Outcome outcome{
         WIFEXITED(result) ? WEXITSTATUS(result) : -1, readAll(scratch.file("stderr")), nullptr, {}};
@@ -94,6 +94,13 @@ TEST_F(ReconstructProgram, WritesWhatIsAskedForAndNoMore) {
   EXPECT_EQ(runWell("--formats cityjson,gltf,stl,vtk,svg,dxf --crs EPSG:7415").files,
             (Names{"model.city.json", "model.glb", "model.stl", "model.vtk", "floorplans.svg",
                    "floorplans.dxf", "report.json"}));
+}
+
+TEST_F(ReconstructProgram, MoreThreadsThanAnyMachineHasGiveTheSameModel) {
+  const Outcome one = runWell("--threads 1");
+  const Outcome many = runWell("--threads 1000000000");
+  EXPECT_EQ(many.report["walls"], one.report["walls"]);
+  EXPECT_EQ(many.report["levels"], one.report["levels"]);
 }
 
 TEST_F(ReconstructProgram, PicturesOfAllStagesAreDrawn) {
