@@ -86,6 +86,27 @@ TEST_F(ReconstructProgram, WrongLimitsGiveOneLineAndStatus2) {
   }
 }
 
+TEST_F(ReconstructProgram, OptionsThatTheMethodIgnoresGiveOneLineAndStatus2) {
+  for (const char* const arguments :
+       {"--slice-thickness 1", "--linking greedy", "--smoothness 1", "--label-cost 1",
+        "--encoding turns", "--expansion", "--method paper --min-wall-area 1",
+        "--method paper --block-cost 1", "--method paper --max-faces 9",
+        "--method paper --trade-off"}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_NE(outcome.message.find("goes with --method"), std::string::npos) << outcome.message;
+    EXPECT_TRUE(outcome.report.is_null()) << arguments;
+  }
+}
+
+TEST_F(ReconstructProgram, NumbersThatDoNotFitTheCloudAreNamed) {
+  for (const char* const option : {"--noise", "--grid"}) {
+    const Outcome outcome = run(option + std::string(" 1e-30"));
+    EXPECT_EQ(outcome.status, 65) << option;
+    EXPECT_NE(outcome.message.find(option), std::string::npos) << outcome.message;
+  }
+}
+
 TEST_F(ReconstructProgram, WritesWhatIsAskedForAndNoMore) {
   using Names = std::set<std::string>;
   EXPECT_EQ(runWell("").files, (Names{"model.ply", "model.obj", "model.mtl", "floorplans.geojson",
