@@ -5,8 +5,8 @@
 #include <pcl/point_cloud.h>
 #include <storey/filters/cloud_scale.h>
 #include <storey/filters/detail/chunks.h>
+#include <storey/filters/detail/main_box.h>
 #include <storey/segmentation/detail/cell_energy.h>
-#include <storey/segmentation/detail/main_box.h>
 #include <storey/segmentation/detail/place_order.h>
 #include <storey/segmentation/detail/wall_lines.h>
 #include <storey/segmentation/detail/wall_points.h>

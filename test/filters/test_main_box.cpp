@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <storey/segmentation/detail/main_box.h>
+#include <storey/filters/detail/main_box.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <storey/segmentation/detail/main_box.h>
+#include <storey/filters/detail/main_box.h>
 
 #include <algorithm>
 #include <cstddef>
