@@ -63,6 +63,7 @@ bool parseOptions(int argc, char** argv, Options& o) {
   if (o.input.empty()) line.fail("no cloud given");
   if (o.output_directory.empty()) line.fail("no output directory given (-o)");
   stages::checkAttitude(line, o.attitude);
+  stages::checkMethod(line, o.method);
   o.formats = parseFormats(line, formats);
   o.intermediate |= o.pictures;
   return true;

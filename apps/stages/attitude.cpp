@@ -6,6 +6,7 @@
 #include <storey/features/outward_normal_orientation.h>
 #include <storey/features/pca_normals.h>
 #include <storey/filters/detail/wall_relief.h>
+#include <storey/segmentation/detail/wall_input.h>
 
 #include <algorithm>
 #include <cmath>
@@ -120,6 +121,11 @@ std::string measureScale(StageCloud& cloud, double given_noise, CloudScale& scal
   }
   if (positions.empty()) refuse(cloud, "none of its normals is level: no walls", kWallsHint);
   scale = storey::detail::estimateCloudScale(positions, kDefaultScaleSeed);
+  if (given_noise > 0.0 && given_noise < storey::detail::kLeastWallNoise * scale.extent) {
+    refuse(cloud, format("is too large for --noise %g", given_noise),
+           format("give at least %.2g, a hundred-thousandth of its extent",
+                  storey::detail::kLeastWallNoise * scale.extent));
+  }
   cloud.state.density = scale.density;
   cloud.state.noise = given_noise > 0.0 ? given_noise
                                         : storey::detail::estimateWallNoise(

@@ -25,6 +25,7 @@ std::string classify(StageCloud& cloud) {
     is_planar[static_cast<std::size_t>(i)] = pcl::isNormalFinite(p) ? 1 : 0;  // not found: none
     if (storey::detail::attitudeOf(p) == storey::detail::Attitude::Upright) of_walls.push_back(i);
   }
+  of_walls = storey::detail::withoutOutliers(*cloud.points, of_walls);
   const double least_wall =
       storey::detail::leastWallArea(*cloud.points, of_walls, cloud.state.noise);
   const auto classes = classifyPoints(points, is_planar, scale, least_wall);

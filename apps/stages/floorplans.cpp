@@ -36,7 +36,7 @@ std::string extractBlocks(StageCloud& cloud, const BlockOptions& options,
                 found.plan.cells.size(), found.levels.size() - 1, blocks.size());
 }
 
-std::string extractWalls(StageCloud& cloud, double min_area,
+std::string extractWalls(StageCloud& cloud, double min_area, unsigned int threads,
                          std::vector<storey::detail::WallLine>& lines) {
   ensureScale(cloud);
   WallExtraction<Point> extraction;
@@ -45,6 +45,7 @@ std::string extractWalls(StageCloud& cloud, double min_area,
   extraction.setNoise(cloud.state.noise);
   extraction.setDensity(cloud.state.density);
   extraction.setMinWallArea(min_area);
+  extraction.setNumberOfThreads(threads);
   std::vector<pcl::PointIndices> walls;
   extraction.extract(walls);
   if (walls.empty())

@@ -36,7 +36,7 @@ std::string extractBlocks(StageCloud& cloud, const BlockOptions& options,
 
 /// The walls of a cloud: the wall of each point, and their lines. \param min_area 0: derived
 /// \return a line that says what was found \throws io::Failure (BadInput) if there are none
-std::string extractWalls(StageCloud& cloud, double min_area,
+std::string extractWalls(StageCloud& cloud, double min_area, unsigned int threads,
                          std::vector<storey::detail::WallLine>& lines);
 
 }  // namespace storey::stages

@@ -19,6 +19,7 @@ std::string buildModel(StageCloud& cloud, const std::vector<FloorplanLayer>& lay
     reconstruction.setBlocks(layers);
   }
   reconstruction.setNoise(cloud.state.noise);
+  reconstruction.setDensity(cloud.state.density);
   reconstruction.setSmoothness(options.smoothness);
   reconstruction.setLabelCost(options.label_cost);
   reconstruction.setMaxTypes(static_cast<std::size_t>(max_types));
@@ -31,7 +32,9 @@ std::string buildModel(StageCloud& cloud, const std::vector<FloorplanLayer>& lay
   reconstruction.reconstruct(mesh);
   model = reconstruction.getResult();
   if (model.model.empty()) {
-    refuse(cloud, "the floorplans enclose no solid", "look at the slices with --intermediate");
+    refuse(cloud, "the floorplans enclose no solid",
+           options.grid > 0.0 ? "does --grid fit the size of the cloud?"
+                              : "look at the floorplans with --intermediate");
   }
   return format("%d floorplan types in %zu blocks, %zu polygons, %s", model.dominant.num_types,
                 model.model.storeys.size(), model.model.faces.size(),

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stages/options.h"
 
+#include <string>
+#include <vector>
+
 #include "io/crs.h"
 
 namespace storey::stages {
@@ -41,6 +44,18 @@ void declareMethod(cli::CommandLine& line, Method& method) {
   line.choice<Method>("method", method, {{"building", Method::Building}, {"paper", Method::Paper}},
                       "where the floorplans come from: building = walls of the whole building at "
                       "once, paper = slice by slice");
+}
+
+void checkMethod(const cli::CommandLine& line, Method method) {
+  const bool paper = method == Method::Paper;
+  const std::vector<std::string> others =
+      paper ? std::vector<std::string>{"min-wall-area", "block-cost", "max-faces", "trade-off"}
+            : std::vector<std::string>{"slice-thickness", "linking",  "smoothness",
+                                       "label-cost",      "encoding", "expansion"};
+  for (const std::string& other : others) {
+    if (!line.given(other)) continue;
+    line.fail("--" + other + " goes with --method " + (paper ? "building" : "paper"));
+  }
 }
 
 void declareThickness(cli::CommandLine& line, SliceOptions& o) {

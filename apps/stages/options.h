@@ -32,4 +32,7 @@ void declareQuiet(cli::CommandLine& line, bool& quiet);
 /// Checks and completes what `parse` read.
 void checkAttitude(const cli::CommandLine& line, AttitudeOptions& options);
 
+/// Refuses options that the method does not look at.
+void checkMethod(const cli::CommandLine& line, Method method);
+
 }  // namespace storey::stages

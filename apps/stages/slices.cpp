@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stages/slices.h"
 
-#include <storey/features/detail/thread_count.h>
+#include <storey/filters/detail/threads.h>
 #include <storey/filters/gravity_slicing.h>
 
 #include <algorithm>
@@ -56,7 +56,7 @@ void takeRegions(const StageCloud& cloud, std::vector<Stages>& slices) {
 std::size_t forEachSlice(std::vector<Stages>& slices, unsigned int threads,
                          const std::function<void(Stages&)>& step) {
   const auto count = static_cast<std::ptrdiff_t>(slices.size());
-#pragma omp parallel for num_threads(storey::detail::threadCount(threads)) schedule(dynamic, 1)
+#pragma omp parallel for num_threads(storey::detail::threadsFor(threads)) schedule(dynamic, 1)
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     Stages& slice = slices[static_cast<std::size_t>(i)];
     if (slice.indices.empty()) {

@@ -41,6 +41,7 @@ bool parse(int argc, char** argv, Request& r) {
   if (!line.parse(argc, argv)) return false;
   if (r.input.empty() || r.output.empty()) line.fail("a cloud and an output are needed");
   requireExtension(line, r.output, {".geojson"});
+  stages::checkMethod(line, r.method);
   return true;
 }
 

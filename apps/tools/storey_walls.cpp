@@ -25,9 +25,9 @@ int main(int argc, char** argv) {
        [&](const storey::cli::CommandLine& line) {
          if (!segments.empty()) storey::tools::requireExtension(line, segments, {".geojson"});
        },
-       [&](stages::StageCloud& cloud, unsigned int) {
+       [&](stages::StageCloud& cloud, unsigned int threads) {
          std::vector<storey::detail::WallLine> lines;
-         const std::string found = extractWalls(cloud, min_area, lines);
+         const std::string found = extractWalls(cloud, min_area, threads, lines);
          if (!segments.empty()) writeWalls(segments, lines, cloud.state);
          return found;
        }});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/features/normal_side.h>
+#include <storey/filters/detail/main_box.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@ constexpr double kVotesAcross = 64.0;  // voxels along the longest side of the w
 constexpr double kWallNormal = 0.5;    // |n.up| of a wall, 30 degrees
 constexpr double kDecided = 0.1;       // |outwardness|
 constexpr double kOneSided = 0.4;
+constexpr std::size_t kSampled = 250000;  // points, to see where most of them are
 
 struct Vote {
   std::uint64_t key = 0;
@@ -32,32 +34,48 @@ bool isWall(const Eigen::Vector3d& normal, const Eigen::Vector3d& up) {
   return std::abs(normal.dot(up)) < kWallNormal;
 }
 
+// The points of walls, without outliers so far away that one voxel would hold the building.
+std::vector<std::size_t> wallPoints(const detail::OrientedPoints& points,
+                                    const Eigen::Vector3d& up) {
+  std::vector<std::size_t> of_walls;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (isWall(points.normals[i], up)) of_walls.push_back(i);
+  }
+  std::vector<Eigen::Vector3f> sample;
+  for (std::size_t k = 0; k < of_walls.size(); k += of_walls.size() / kSampled + 1) {
+    sample.push_back(points.positions[of_walls[k]].cast<float>());
+  }
+  const Eigen::AlignedBox3f box = detail::mainBoxOf(sample);
+  const auto outside = [&](std::size_t i) {
+    return !box.contains(points.positions[i].cast<float>());
+  };
+  of_walls.erase(std::remove_if(of_walls.begin(), of_walls.end(), outside), of_walls.end());
+  return of_walls;
+}
+
 // The mean position and normal of the wall points in each voxel, by voxel. Opposite normals in a
 // voxel weaken its vote.
 std::vector<Vote> votesOf(const detail::OrientedPoints& points, const Eigen::Vector3d& up) {
+  const std::vector<std::size_t> of_walls = wallPoints(points, up);
   Eigen::Array3d low = Eigen::Array3d::Constant(std::numeric_limits<double>::max());
   Eigen::Array3d high = -low;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (isWall(points.normals[i], up)) {
-      low = low.min(points.positions[i].array());
-      high = high.max(points.positions[i].array());
-    }
+  for (const std::size_t i : of_walls) {
+    low = low.min(points.positions[i].array());
+    high = high.max(points.positions[i].array());
   }
   const double side = (high - low).maxCoeff() / kVotesAcross;
   std::vector<Vote> votes;
   std::unordered_map<std::uint64_t, std::size_t> vote_of_voxel;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (isWall(points.normals[i], up)) {
-      const std::uint64_t key = side > 0.0 ? keyOf(points.positions[i], low.matrix(), side) : 0;
-      const auto [place, is_new] = vote_of_voxel.try_emplace(key, votes.size());
-      if (is_new) {
-        votes.emplace_back().key = key;
-      }
-      Vote& vote = votes[place->second];
-      vote.x += points.positions[i] - up * up.dot(points.positions[i]);
-      vote.n += points.normals[i] - up * up.dot(points.normals[i]);
-      vote.count += 1.0;
+  for (const std::size_t i : of_walls) {
+    const std::uint64_t key = side > 0.0 ? keyOf(points.positions[i], low.matrix(), side) : 0;
+    const auto [place, is_new] = vote_of_voxel.try_emplace(key, votes.size());
+    if (is_new) {
+      votes.emplace_back().key = key;
     }
+    Vote& vote = votes[place->second];
+    vote.x += points.positions[i] - up * up.dot(points.positions[i]);
+    vote.n += points.normals[i] - up * up.dot(points.normals[i]);
+    vote.count += 1.0;
   }
   for (Vote& vote : votes) {
     vote.x /= vote.count;

@@ -71,6 +71,9 @@ Cube withoutOutliers(const pcl::PointCloud<pcl::PointXYZ>& distinct, Cube cube) 
           ++total;
         }
       }
+      if (total == 0) {  // rounding left out the one place that nearly all share
+        break;
+      }
       const std::size_t few = total / kFewShare;
       std::size_t first = 0;
       std::size_t last = kSlices - 1;

@@ -23,7 +23,6 @@ constexpr double kMinExplained = 0.5;  // of the area of the walls found
 constexpr double kLeastGap = 0.1;
 constexpr double kShortEdge = 3.0;         // noise deviations
 constexpr double kCornerTolerance = 0.05;  // noise deviations
-constexpr double kPlanarNeighbors = 30.0;  // of a point: PlanarConfidenceFilter leaves out corners
 
 struct PlanBox {
   Eigen::Vector2d low;
@@ -185,8 +184,8 @@ BuildingFloorplans extractBuildingFloorplans(const WallInput& input,
                                {options.min_wall_area, options.steps, options.threads});
   if (result.walls.size() < 2) return result;
   if (options.steps.hypotheses) {
-    const double corner_gap = std::sqrt(kPlanarNeighbors / (M_PI * input.scale.density));
-    result.hypotheses = hypothesiseLines(result.walls, input.sample, sample_scale, corner_gap);
+    result.hypotheses =
+        hypothesiseLines(result.walls, input.sample, sample_scale, cornerGap(input.scale.density));
   }
 
   Labeling labeling(input, options, result);

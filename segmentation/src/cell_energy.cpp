@@ -47,7 +47,7 @@ std::vector<LevelHeights> heightsByCell(const LineArrangement& plan,
   }
   const Eigen::Vector2d step = (high - low) / kGrid;
   const auto indexOf = [&](const Eigen::Vector2d& p, int axis) {
-    return std::clamp(static_cast<int>((p[axis] - low[axis]) / step[axis]), 0, kGrid - 1);
+    return static_cast<int>(std::clamp((p[axis] - low[axis]) / step[axis], 0.0, kGrid - 1.0));
   };
   std::vector<std::vector<int>> candidates(kGrid * kGrid);
   for (std::size_t c = 0; c < plan.cells.size(); ++c) {

@@ -42,9 +42,9 @@ class ReconstructProgram : public ::testing::Test {
   static Outcome run(const std::string& arguments, const std::string& prefix = "") {
     const TemporaryDirectory scratch;
     const std::string command = prefix + std::string(STOREY_RECONSTRUCT) + " " +
-                                directory_->file("cloud.ply") + " -q --threads 1 -o " +
-                                scratch.file("out") + " " + arguments + " >" +
-                                scratch.file("stdout") + " 2>" + scratch.file("stderr");
+                                directory_->file("cloud.ply") + " -q -o " + scratch.file("out") +
+                                " " + arguments + " >" + scratch.file("stdout") + " 2>" +
+                                scratch.file("stderr");
     const int result = std::system(command.c_str());
     Outcome outcome{
         WIFEXITED(result) ? WEXITSTATUS(result) : -1, readAll(scratch.file("stderr")), nullptr, {}};
@@ -86,6 +86,27 @@ TEST_F(ReconstructProgram, WrongLimitsGiveOneLineAndStatus2) {
   }
 }
 
+TEST_F(ReconstructProgram, OptionsThatTheMethodIgnoresGiveOneLineAndStatus2) {
+  for (const char* const arguments :
+       {"--slice-thickness 1", "--linking greedy", "--smoothness 1", "--label-cost 1",
+        "--encoding turns", "--expansion", "--method paper --min-wall-area 1",
+        "--method paper --block-cost 1", "--method paper --max-faces 9",
+        "--method paper --trade-off"}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_NE(outcome.message.find("goes with --method"), std::string::npos) << outcome.message;
+    EXPECT_TRUE(outcome.report.is_null()) << arguments;
+  }
+}
+
+TEST_F(ReconstructProgram, NumbersThatDoNotFitTheCloudAreNamed) {
+  for (const char* const option : {"--noise", "--grid"}) {
+    const Outcome outcome = run(option + std::string(" 1e-30"));
+    EXPECT_EQ(outcome.status, 65) << option;
+    EXPECT_NE(outcome.message.find(option), std::string::npos) << outcome.message;
+  }
+}
+
 TEST_F(ReconstructProgram, WritesWhatIsAskedForAndNoMore) {
   using Names = std::set<std::string>;
   EXPECT_EQ(runWell("").files, (Names{"model.ply", "model.obj", "model.mtl", "floorplans.geojson",
@@ -94,6 +115,13 @@ TEST_F(ReconstructProgram, WritesWhatIsAskedForAndNoMore) {
   EXPECT_EQ(runWell("--formats cityjson,gltf,stl,vtk,svg,dxf --crs EPSG:7415").files,
             (Names{"model.city.json", "model.glb", "model.stl", "model.vtk", "floorplans.svg",
                    "floorplans.dxf", "report.json"}));
+}
+
+TEST_F(ReconstructProgram, MoreThreadsThanAnyMachineHasGiveTheSameModel) {
+  const Outcome one = runWell("--threads 1");
+  const Outcome many = runWell("--threads 1000000000");
+  EXPECT_EQ(many.report["walls"], one.report["walls"]);
+  EXPECT_EQ(many.report["levels"], one.report["levels"]);
 }
 
 TEST_F(ReconstructProgram, PicturesOfAllStagesAreDrawn) {

@@ -235,6 +235,20 @@ TEST(DetectNormalSide, TellsBuildingFromSpaceFromFacade) {
   EXPECT_EQ(facade.side, storey::NormalSide::Building);
 }
 
+TEST(DetectNormalSide, TellsAYardAmongOutliersFarAway) {
+  const auto yard =
+      sampled<PointT>(wallsOf(reversed(rectangle(0, 0, 30, 20)), 0, 9), 9000, kScanNoise);
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const double alone = storey::detectNormalSide(*yard, up).outwardness;
+  for (int i = 0; i < 20; ++i) {
+    PointT outlier = (*yard)[0];
+    outlier.x = 1e6f * static_cast<float>(i - 10);
+    outlier.y = 1e7f;
+    yard->push_back(outlier);
+  }
+  EXPECT_NEAR(storey::detectNormalSide(*yard, up).outwardness, alone, 1e-6);  // another origin
+}
+
 TEST(DetectNormalSide, IsUndecidedWithoutEvidence) {
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   EXPECT_EQ(storey::detectNormalSide(Cloud(), up).side, storey::NormalSide::Undecided);

@@ -163,6 +163,17 @@ TEST(NeighborSearch, VisitsTheWantedWithTheSameMomentsInAnyCompany) {
   }
 }
 
+float medianStep(const Positions& positions) {
+  const DistinctPositions distinct = storey::detail::findDistinctPositions(positions);
+  std::vector<float> steps;
+  for (std::size_t i = 1; i < distinct.cloud->size(); ++i) {
+    steps.push_back(
+        ((*distinct.cloud)[i].getVector3fMap() - (*distinct.cloud)[i - 1].getVector3fMap()).norm());
+  }
+  std::nth_element(steps.begin(), steps.begin() + 10000, steps.end());
+  return steps[10000];
+}
+
 // Far outliers leave the building one cell of a curve over everything; it must stay as fast.
 TEST(NeighborSearch, OrdersABuildingAmongOutliersAsWithoutThem) {
   Positions near;
@@ -171,18 +182,23 @@ TEST(NeighborSearch, OrdersABuildingAmongOutliersAsWithoutThem) {
   for (int i = 0; i < 20000; ++i) near.emplace_back(uniform(random), uniform(random), 0.0f);
   Positions with = near;
   for (int i = 0; i < 5; ++i) with.emplace_back(1e9f * static_cast<float>(i - 2), 1e9f, 1e9f);
-  const auto medianStep = [](const Positions& positions) {
-    const DistinctPositions distinct = storey::detail::findDistinctPositions(positions);
-    std::vector<float> steps;
-    for (std::size_t i = 1; i < distinct.cloud->size(); ++i) {
-      steps.push_back(
-          ((*distinct.cloud)[i].getVector3fMap() - (*distinct.cloud)[i - 1].getVector3fMap())
-              .norm());
-    }
-    std::nth_element(steps.begin(), steps.begin() + 10000, steps.end());
-    return steps[10000];
-  };
   EXPECT_NEAR(medianStep(with), medianStep(near), 0.2f * medianStep(near));
+}
+
+// Where all outliers lie on one side of a wall without thickness, its place is the end of a box
+// that gets narrower until rounding moves the end past it.
+TEST(NeighborSearch, OrdersAFlatWallWithOutliersOnOneSide) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
+  for (const float x : {9.7f, -6.0f, 103.15f, 0.0f}) {
+    Positions near;
+    for (int i = 0; i < 20000; ++i) near.emplace_back(x, uniform(random), uniform(random));
+    for (const float far : {-1944037.0f, -25896366.0f, -48603.266f, 1944037.0f}) {
+      Positions with = near;
+      with.emplace_back(far, 0.5f, 0.5f);
+      EXPECT_NEAR(medianStep(with), medianStep(near), 0.2f * medianStep(near)) << x << ' ' << far;
+    }
+  }
 }
 
 }  // namespace

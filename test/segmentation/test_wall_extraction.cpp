@@ -112,6 +112,33 @@ TYPED_TEST(WallExtractionOf, MisuseAndEmptyCloudsGiveNoWalls) {
   EXPECT_TRUE(walls.empty());
 }
 
+// 50 are fewer than the hundredth of 40,000 that a few are.
+TYPED_TEST(WallExtractionOf, AFewPointsFarAwayChangeNothing) {
+  const auto cloud = hexagon().sample<TypeParam>(kPoints, 7);
+  auto with_outliers = pcl::make_shared<pcl::PointCloud<TypeParam>>(*cloud);
+  TypeParam outlier = (*cloud)[0];
+  for (int i = 0; i < 50; ++i) {
+    outlier.x = 1e7f * static_cast<float>(i - 25);
+    outlier.y = 1e8f;
+    outlier.z = -1e7f * static_cast<float>(i);
+    with_outliers->push_back(outlier);
+  }
+  pcl::Indices found[2];
+  for (int k = 0; k < 2; ++k) {
+    WallExtraction<TypeParam> extraction;
+    extraction.setInputCloud(k == 0 ? cloud : with_outliers);
+    extraction.setNoise(0.1);
+    extraction.setDensity(kPoints / (6.0 * 2.0 * 10.0 * std::tan(M_PI / 6.0) * 10.0));
+    std::vector<pcl::PointIndices> walls;
+    extraction.extract(walls);
+    ASSERT_EQ(walls.size(), 6u);
+    for (const pcl::PointIndices& wall : walls) {
+      found[k].insert(found[k].end(), wall.indices.begin(), wall.indices.end());
+    }
+  }
+  EXPECT_EQ(found[0], found[1]);
+}
+
 TYPED_TEST(WallExtractionOf, AMovedCloudHasTheSameWalls) {
   const auto cloud = hexagon().sample<TypeParam>(kPoints, 6);
   auto moved = pcl::make_shared<pcl::PointCloud<TypeParam>>(*cloud);

@@ -194,6 +194,7 @@ TYPED_TEST(MRFReconstruction, BadParametersGiveNothing) {
   };
   for (const double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
     expectRefused([&](Tested& r) { r.setNoise(bad); });
+    expectRefused([&](Tested& r) { r.setDensity(bad); });
     expectRefused([&](Tested& r) { r.setGrid(bad); });
     expectRefused([&](Tested& r) { r.setSmoothness(bad); });
     expectRefused([&](Tested& r) { r.setLabelCost(bad); });
@@ -248,6 +249,7 @@ TYPED_TEST(MRFReconstruction, IsAPclClassWithGetters) {
   EXPECT_EQ(Named().name(), "LayerwiseMRFReconstruction");
   typename LayerwiseMRFReconstruction<TypeParam>::Ptr r(new LayerwiseMRFReconstruction<TypeParam>);
   r->setNoise(0.1);
+  r->setDensity(30.0);
   r->setSmoothness(0.2);
   r->setLabelCost(0.3);
   r->setMaxTypes(4);
@@ -257,6 +259,7 @@ TYPED_TEST(MRFReconstruction, IsAPclClassWithGetters) {
   r->setFloorplans(slices());
   typename LayerwiseMRFReconstruction<TypeParam>::ConstPtr constant = r;
   EXPECT_EQ(constant->getNoise(), 0.1);
+  EXPECT_EQ(constant->getDensity(), 30.0);
   EXPECT_EQ(constant->getSmoothness(), 0.2);
   EXPECT_EQ(constant->getLabelCost(), 0.3);
   EXPECT_EQ(constant->getMaxTypes(), 4U);
@@ -272,6 +275,34 @@ TYPED_TEST(MRFReconstruction, IsAPclClassWithGetters) {
 }
 
 // --- once is enough -----------------------------------------------------------------------------
+
+TEST(MRFReconstructionOnce, BlocksOfPlanarPointsMayEndShortOfTheRoof) {
+  // 30 neighbours at 25 points per unit of area fill a disc of radius 0.618: so near to the ground
+  // and the roof points of walls are not planar. What is left is 62 deviations of noise short.
+  const double gap = std::sqrt(30.0 / (M_PI * 25.0));
+  const Floorplan plan = planOf(kTower, 0.0);
+  auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointNormal>>();
+  WallCloudOptions options;
+  options.density = 25.0;
+  options.noise = 0.01;
+  options.z_max = 10.0;
+  addWalls(moved(kTower, 0.0, {1, 2}), options, *cloud);
+  addCap(plan, 0.0, -1.0, *cloud);
+  addCap(plan, 10.0, 1.0, *cloud);
+  for (const double density : {0.0, 25.0}) {
+    LayerwiseMRFReconstruction<pcl::PointNormal> reconstruction;
+    reconstruction.setInputCloud(cloud);
+    reconstruction.setDensity(density);
+    reconstruction.setBlocks({{gap, 10.0 - gap, plan}});
+    pcl::PolygonMesh mesh;
+    reconstruction.reconstruct(mesh);
+    const std::vector<HeightFit>& levels = reconstruction.getResult().levels;
+    ASSERT_EQ(levels.size(), 2U);
+    // Walls of length 38 alone tell heights to sqrt(0.01 / (0.9 x 950)) = 0.0034.
+    EXPECT_NEAR(levels[0].z, 0.0, 4.0 * 0.0034);
+    EXPECT_NEAR(levels[1].z, 10.0, 4.0 * 0.0034);
+  }
+}
 
 TEST(MRFReconstructionOnce, FacesWithHolesAreTriangulated) {
   // A courtyard: ground and roof have a hole each.

@@ -35,8 +35,8 @@ NormalSideEvidence judgeNormalSide(const OrientedPoints& points, const Eigen::Ve
 ///
 /// `Building` if outwardness > 0.1, `Space` if < -0.1, else `Undecided`. If one_sidedness > 0.4,
 /// only one side was seen, which encloses nothing: `Building` whatever the outwardness. Points with
-/// a non-finite position or normal are left out. O(n log n). \param up the up direction, of any
-/// length but not zero (else `Undecided`)
+/// a non-finite position or normal, and outliers (`detail::mainBoxOf`), are left out. O(n log n).
+/// \param up the up direction, of any length but not zero (else `Undecided`)
 template <typename PointT>
 NormalSideEvidence detectNormalSide(const pcl::PointCloud<PointT>& cloud,
                                     const Eigen::Vector3d& up) {

@@ -55,7 +55,7 @@ class BuildingFloorplanExtraction : public pcl::PCLBase<PointT> {
   double getDensity() const { return density_; }
 
   /// Least supported area of a wall; 0 (default): the larger of (20 noise)^2 and (extent / 40)^2,
-  /// the extent being that of the indexed points.
+  /// the extent being that of the indexed points of walls, without outliers.
   void setMinWallArea(double square_length) { min_wall_area_ = square_length; }
   double getMinWallArea() const { return min_wall_area_; }
 

@@ -44,7 +44,7 @@ class WallExtraction : public pcl::PCLBase<PointT> {
   double getDensity() const { return parameters_.density; }
 
   /// Least area of a wall that has points; 0 (default): the larger of (20 noise)^2 and
-  /// (extent / 40)^2, the extent being that of the indexed points.
+  /// (extent / 40)^2, the extent being that of the indexed points of walls, without outliers.
   void setMinWallArea(double square_length) { parameters_.min_wall_area = square_length; }
   double getMinWallArea() const { return parameters_.min_wall_area; }
 

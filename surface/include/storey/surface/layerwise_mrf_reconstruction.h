@@ -60,6 +60,10 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
   void setNoise(double noise) { noise_ = noise; }
   double getNoise() const { return noise_; }
 
+  /// Points per unit of wall area; 0 (default): estimated from the input.
+  void setDensity(double density) { density_ = density; }
+  double getDensity() const { return density_; }
+
   /// eta1, (11), >= 0; see `DominantFloorplanOptions::smoothness`.
   void setSmoothness(double eta1) { options_.smoothness = eta1; }
   double getSmoothness() const { return options_.smoothness; }
@@ -113,6 +117,7 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
   std::vector<FloorplanLayer> blocks_;
   DominantFloorplanOptions options_;
   double noise_ = 0.0;
+  double density_ = 0.0;
   double grid_ = 0.0;
   unsigned int threads_ = 0;
   detail::MethodSteps steps_;

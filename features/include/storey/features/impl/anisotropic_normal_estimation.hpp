@@ -6,8 +6,8 @@
 #include <pcl/search/kdtree.h>
 #include <storey/features/anisotropic_normal_estimation.h>
 #include <storey/features/detail/oriented_points.h>
-#include <storey/features/detail/thread_count.h>
 #include <storey/filters/detail/distinct_positions.h>
+#include <storey/filters/detail/threads.h>
 
 #include <algorithm>
 #include <cmath>
@@ -90,7 +90,7 @@ void AnisotropicNormalEstimation<PointInT, PointNT, PointOutT>::computeFeature(
     const detail::Neighborhoods hoods = findNeighborhoods();
     used_sigma_p_ = sigma_p_ > 0.0 ? sigma_p_ : detail::medianReach(hoods);
     const detail::SmoothingParameters parameters{used_sigma_p_, sigma_n_, alpha_, iterations_,
-                                                 detail::threadCount(threads_)};
+                                                 detail::threadsFor(threads_)};
     const auto solved = detail::smoothNormals(prior, hoods, parameters, &used_iterations_);
     write(normalsAtIndices(prior, solved, hoods, parameters), output);
   } catch (const std::bad_alloc&) {
@@ -149,7 +149,7 @@ detail::Neighborhoods AnisotropicNormalEstimation<PointInT, PointNT, PointOutT>:
     }
   }
   std::vector<std::vector<std::pair<std::uint32_t, float>>> rows(num_rows);
-#pragma omp parallel num_threads(detail::threadCount(threads_))
+#pragma omp parallel num_threads(detail::threadsFor(threads_))
   {
     pcl::Indices neighbors;
     std::vector<float> squared;

@@ -4,9 +4,9 @@
 #include <pcl/console/print.h>
 #include <storey/features/detail/oriented_points.h>
 #include <storey/features/detail/outward_signs.h>
-#include <storey/features/detail/thread_count.h>
 #include <storey/features/outward_normal_orientation.h>
 #include <storey/filters/cloud_scale.h>
+#include <storey/filters/detail/threads.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -72,7 +72,7 @@ void OutwardNormalOrientation<PointT>::turn(pcl::PointCloud<PointT>& output) {
     points.normals[i] = to_upright * points.normals[i];
   }
   const detail::OutwardSigns signs = detail::findOutwardSigns(points.positions, points.normals,
-                                                              side, detail::threadCount(threads_));
+                                                              side, detail::threadsFor(threads_));
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto id = static_cast<std::size_t>(points.ids[i]);
     confidences_[id] = signs.confidence[i];

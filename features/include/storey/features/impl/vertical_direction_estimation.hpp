@@ -3,10 +3,10 @@
 
 #include <pcl/console/print.h>
 #include <storey/features/detail/oriented_points.h>
-#include <storey/features/detail/thread_count.h>
 #include <storey/features/detail/vertical_kernels.h>
 #include <storey/features/vertical_direction_estimation.h>
 #include <storey/filters/cloud_scale.h>
+#include <storey/filters/detail/threads.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,7 @@ bool VerticalDirectionEstimation<PointT, NormalT>::compute(Eigen::Vector3d& up) 
     return false;
   }
   const auto start =
-      detail::findVerticalStart(points.normals, guess, given, detail::threadCount(threads_));
+      detail::findVerticalStart(points.normals, guess, given, detail::threadsFor(threads_));
   up_ = detail::refineByNormals(points.normals, start.up);
   const detail::VerticalFit fit =
       detail::refineByPositions(points.positions, points.normals, up_, columnSize());

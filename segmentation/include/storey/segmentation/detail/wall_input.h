@@ -5,6 +5,7 @@
 #include <pcl/point_cloud.h>
 #include <storey/filters/cloud_scale.h>
 #include <storey/filters/detail/chunks.h>
+#include <storey/filters/detail/main_box.h>
 #include <storey/segmentation/detail/cell_energy.h>
 #include <storey/segmentation/detail/place_order.h>
 #include <storey/segmentation/detail/wall_lines.h>
@@ -32,7 +33,7 @@ struct WallParameters {
 
 /// A cloud as the search for walls sees it. Points of walls come in the order of their places.
 struct WallInput {
-  std::vector<WallPoint> walls;
+  std::vector<WallPoint> walls;   ///< without outliers
   pcl::Indices wall_indices;      ///< of `walls` in the cloud
   std::vector<WallPoint> sample;  ///< at most 250,000 of `walls`, evenly drawn: to find lines with
   std::vector<LevelPoint> levels;
@@ -53,6 +54,24 @@ Attitude attitudeOf(const PointT& p) {
   return nz < kWallMaxNormalZ    ? Attitude::Upright
          : nz > kLevelMinNormalZ ? Attitude::Level
                                  : Attitude::Neither;
+}
+
+/// The points of walls without outliers so far away that nothing could be derived from the extent.
+template <typename PointT>
+pcl::Indices withoutOutliers(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& of_walls) {
+  const auto positionOf = [&cloud](pcl::index_t i) {
+    const PointT& p = cloud[static_cast<std::size_t>(i)];
+    return Eigen::Vector3f(p.x, p.y, p.z);
+  };
+  std::vector<Eigen::Vector3f> sample;
+  for (const pcl::index_t i : drawEvenly(of_walls)) sample.push_back(positionOf(i));
+  const Eigen::AlignedBox3f box = mainBoxOf(sample);
+  pcl::Indices inside;
+  inside.reserve(of_walls.size());
+  for (const pcl::index_t i : of_walls) {
+    if (box.contains(positionOf(i))) inside.push_back(i);
+  }
+  return inside;
 }
 
 /// The least area of a wall, derived from a cloud with these points of walls.
@@ -106,6 +125,7 @@ WallInput gatherWallInput(const pcl::PointCloud<PointT>& cloud, const pcl::Indic
     if (attitude == Attitude::Upright) of_walls.push_back(i);
     if (attitude == Attitude::Level) input.levels.push_back({{p.x, p.y}, p.z, p.normal_z > 0.0f});
   }
+  of_walls = withoutOutliers(cloud, of_walls);
   input.min_wall_area = parameters.min_wall_area > 0.0
                             ? parameters.min_wall_area
                             : leastWallArea(cloud, of_walls, input.scale.noise);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -19,6 +20,13 @@ struct WallScale {
   double noise = 0.0;    ///< standard deviation across a wall, > 0
   double density = 0.0;  ///< points per unit of wall area, > 0
 };
+
+/// Length by which the planar points of walls end short of corners and level faces: the reach of
+/// the neighbours by which `PlanarConfidenceFilter` leaves out edges.
+inline double cornerGap(double density) {
+  constexpr double kPlanarNeighbors = 30.0;
+  return std::sqrt(kPlanarNeighbors / (M_PI * density));
+}
 
 /// The line of a wall in plan and the part of it that points support.
 ///

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <pcl/console/print.h>
-#include <storey/features/detail/thread_count.h>
 #include <storey/filters/detail/indices.h>
+#include <storey/filters/detail/threads.h>
 #include <storey/filters/gravity_slicing.h>
 #include <storey/segmentation/detail/indexed_scale.h>
 #include <storey/segmentation/dominant_direction_clustering.h>
@@ -93,7 +93,7 @@ bool LayerwiseFloorplanExtraction<PointT>::extract(std::vector<FloorplanLayer>& 
   const bool prepared = prepare(slices);
   if (prepared) {
     const auto count = static_cast<std::ptrdiff_t>(slices.size());
-#pragma omp parallel for num_threads(detail::threadCount(threads_)) schedule(dynamic, 1)
+#pragma omp parallel for num_threads(detail::threadsFor(threads_)) schedule(dynamic, 1)
     for (std::ptrdiff_t i = 0; i < count; ++i) {
       const auto s = static_cast<std::size_t>(i);
       try {  // nothing may leave the parallel region; a slice that fails is skipped

@@ -27,9 +27,16 @@ namespace detail {
 constexpr double kModelLeastNoise = 1e-5;  // of the extent, where a cloud has none
 // Lines of slices scatter by less than this about their wall, and walls further apart differ.
 constexpr double kLetterToleranceInNoise = 1.5;
-// Two bins of the levels of `BuildingFloorplanExtraction`: how far its heights may be off.
+// Two bins of the levels of `BuildingFloorplanExtraction`.
 constexpr double kLevelErrorInNoise = 6.0;
 constexpr double kLevelErrorInHeight = 1.0 / 150.0;
+
+/// How far the heights of `BuildingFloorplanExtraction` may be off: it sees planar points alone.
+inline double levelError(const std::vector<FloorplanLayer>& blocks, const CloudScale& scale) {
+  const double height = blocks.back().z_max - blocks.front().z_min;
+  const double bins = std::max(kLevelErrorInNoise * scale.noise, kLevelErrorInHeight * height);
+  return scale.density > 0.0 ? std::max(bins, cornerGap(scale.density)) : bins;
+}
 
 /// Whether every layer has a height, and none begins below the end of the one before it (but for
 /// rounding).
@@ -68,7 +75,7 @@ FitPoints toFitPoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& 
 
 template <typename PointT>
 bool LayerwiseMRFReconstruction<PointT>::parametersValid() const {
-  for (const double value : {noise_, grid_, options_.smoothness, options_.label_cost}) {
+  for (const double value : {noise_, density_, grid_, options_.smoothness, options_.label_cost}) {
     if (!(value >= 0.0) || std::isinf(value)) {
       PCL_ERROR("[storey::%s] a parameter is %g, expected finite and >= 0.\n",
                 getClassName().c_str(), value);
@@ -92,10 +99,15 @@ bool LayerwiseMRFReconstruction<PointT>::build() {
     this->deinitCompute();
     return false;
   }
-  const CloudScale scale =
-      noise_ > 0.0 ? CloudScale{noise_} : detail::scaleOfIndexed(*this->input_, *this->indices_);
+  CloudScale scale{noise_, density_};
+  if (noise_ == 0.0 || density_ == 0.0) {
+    scale = detail::scaleOfIndexed(*this->input_, *this->indices_);
+    scale.noise =
+        noise_ > 0.0 ? noise_ : std::max(scale.noise, detail::kModelLeastNoise * scale.extent);
+    if (density_ > 0.0) scale.density = density_;
+  }
   LayerwiseModelOptions options;
-  options.noise = std::max(scale.noise, detail::kModelLeastNoise * scale.extent);
+  options.noise = scale.noise;
   options.dominant = options_;
   options.dominant.length_tolerance = detail::kLetterToleranceInNoise * options.noise;
   options.grid = grid_;
@@ -112,13 +124,12 @@ bool LayerwiseMRFReconstruction<PointT>::build() {
       extraction.setInputCloud(this->input_);
       extraction.setIndices(this->indices_);
       extraction.setNoise(noise_);
+      extraction.setDensity(density_);
       extraction.setNumberOfThreads(threads_);
       extraction.extract(blocks);
     }
     if (!blocks.empty()) {
-      const double height = blocks.back().z_max - blocks.front().z_min;
-      options.slice_thickness = std::max(detail::kLevelErrorInNoise * options.noise,
-                                         detail::kLevelErrorInHeight * height);
+      options.slice_thickness = detail::levelError(blocks, scale);
       result_ = buildModelOfBlocks(blocks, std::move(points), options);
     }
   }
