@@ -28,7 +28,12 @@ class Pruning {
  public:
   Pruning(const LineArrangement& plan, double gap, double cost, bool may_vanish,
           std::vector<CellBlock>& blocks)
-      : plan_(plan), gap_(gap), cost_(cost), may_vanish_(may_vanish), blocks_(blocks) {
+      : plan_(plan),
+        neighbors_(plan),
+        gap_(gap),
+        cost_(cost),
+        may_vanish_(may_vanish),
+        blocks_(blocks) {
     for (const CellBlock& block : blocks) {
       Outline outline{LabelCut(plan, block.terms, gap), block.inside, block.energy, {}};
       outline.cut.solve();  // once; trials go on from there
@@ -71,7 +76,7 @@ class Pruning {
 
   // What the joint below a block of the stack costs; above the last block there is one more.
   double jointOf(const Stack& stack, std::size_t b) const {
-    return jointComplexity(plan_, b > 0 ? &stack[b - 1]->inside : nullptr,
+    return jointComplexity(neighbors_, b > 0 ? &stack[b - 1]->inside : nullptr,
                            b < stack.size() ? &stack[b]->inside : nullptr);
   }
 
@@ -267,6 +272,7 @@ class Pruning {
   }
 
   const LineArrangement& plan_;
+  CellNeighbors neighbors_;
   double gap_;
   double cost_;
   bool may_vanish_;
