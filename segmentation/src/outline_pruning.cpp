@@ -7,7 +7,9 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace storey::detail {
@@ -16,12 +18,41 @@ namespace {
 constexpr double kTriedUpTo = 3.0;   // costs: what has more to show than this stays
 constexpr double kLeastGain = 1e-9;  // of the cost, against endless exchanges
 
-// The outline of a block, and the cut that found it.
-struct Outline {
-  LabelCut cut;
+// Edges of the plan one after the other along a line.
+struct EdgeRange {
+  std::size_t first;
+  std::size_t last;
+
+  bool operator<(const EdgeRange& other) const {
+    return std::tie(first, last) < std::tie(other.first, other.last);
+  }
+};
+
+EdgeRange rangeOf(const OutlineRun& run) { return {run.first, run.last}; }
+
+// All edges of a line, which has some.
+EdgeRange edgesOf(const LineArrangement& plan, std::size_t line) {
+  const auto firstFrom = [&](std::size_t l) {
+    const auto found = std::partition_point(
+        plan.edges.begin(), plan.edges.end(),
+        [&](const PlanEdge& edge) { return static_cast<std::size_t>(edge.line) < l; });
+    return static_cast<std::size_t>(found - plan.edges.begin());
+  };
+  return {firstFrom(line), firstFrom(line + 1) - 1};
+}
+
+// The cells inside in a block.
+struct Labels {
   std::vector<char> inside;
   double energy = 0.0;
   std::vector<OutlineRun> runs;
+};
+
+// The outline of a block, and the cut that found it.
+struct Outline {
+  LabelCut cut;
+  Labels labels;
+  std::map<EdgeRange, Labels> without;  // the best that do without some edges, as far as tried
 };
 
 class Pruning {
@@ -35,14 +66,13 @@ class Pruning {
         may_vanish_(may_vanish),
         blocks_(blocks) {
     for (const CellBlock& block : blocks) {
-      Outline outline{LabelCut(plan, block.terms, gap), block.inside, block.energy, {}};
-      outline.cut.solve();  // once; trials go on from there
-      outline.runs = runsOf(plan, block.terms, block.inside);
-      outlines_.push_back(std::move(outline));
+      Labels labels{block.inside, block.energy, runsOf(plan, block.terms, block.inside)};
+      outlines_.push_back({LabelCut(plan, block.terms, gap), std::move(labels), {}});
+      outlines_.back().cut.solve();  // once; trials go on from there
     }
     tried_.resize(blocks.size());
     measureJoints();
-    objective_ = objectiveOf(stackOf({}), joints_);
+    objective_ = objectiveOf(stack(), joints_);
   }
 
   void run() {
@@ -52,25 +82,48 @@ class Pruning {
     }
     dropLines();
     for (std::size_t b = 0; b < outlines_.size(); ++b) {
-      blocks_[b].inside = std::move(outlines_[b].inside);
-      blocks_[b].energy = outlines_[b].energy;
+      blocks_[b].inside = std::move(outlines_[b].labels.inside);
+      blocks_[b].energy = outlines_[b].labels.energy;
     }
   }
 
  private:
-  using Trials = std::map<std::size_t, Outline>;  // in place of the outlines of these blocks
-  using Stack = std::vector<const Outline*>;
+  using Trial = std::map<std::size_t, EdgeRange>;  // what blocks are to do without
+  using Stack = std::vector<const Labels*>;
 
-  void cutAgain(const CellTerms& terms, Outline& outline) const {
-    outline.inside = outline.cut.solve();
-    outline.energy = energyOf(plan_, terms, gap_, outline.inside);
-    outline.runs = runsOf(plan_, terms, outline.inside);
+  Labels cutAgain(const CellTerms& terms, LabelCut& cut) const {
+    Labels labels;
+    labels.inside = cut.solve();
+    labels.energy = energyOf(plan_, terms, gap_, labels.inside);
+    labels.runs = runsOf(plan_, terms, labels.inside);
+    return labels;
   }
 
-  Stack stackOf(const Trials& trials) const {
+  static void tie(const EdgeRange& edges, LabelCut& cut) {
+    for (std::size_t e = edges.first; e <= edges.last; ++e) cut.tie(e);
+  }
+
+  // Cut once for as long as the outline stays.
+  const Labels& without(const EdgeRange& edges, std::size_t b) {
+    auto& known = outlines_[b].without;
+    const auto found = known.find(edges);
+    if (found != known.end()) return found->second;
+    LabelCut cut = outlines_[b].cut;
+    tie(edges, cut);
+    return known.emplace(edges, cutAgain(blocks_[b].terms, cut)).first->second;
+  }
+
+  void take(const EdgeRange& edges, std::size_t b) {
+    Outline& outline = outlines_[b];
+    outline.labels = std::move(outline.without.at(edges));
+    outline.without.clear();
+    tie(edges, outline.cut);
+    outline.cut.solve();
+  }
+
+  Stack stack() const {
     Stack stack;
-    for (const Outline& outline : outlines_) stack.push_back(&outline);
-    for (const auto& [b, outline] : trials) stack[b] = &outline;
+    for (const Outline& outline : outlines_) stack.push_back(&outline.labels);
     return stack;
   }
 
@@ -81,9 +134,8 @@ class Pruning {
   }
 
   void measureJoints() {
-    const Stack stack = stackOf({});
     joints_.clear();
-    for (std::size_t b = 0; b <= stack.size(); ++b) joints_.push_back(jointOf(stack, b));
+    for (std::size_t b = 0; b <= outlines_.size(); ++b) joints_.push_back(jointOf(stack(), b));
   }
 
   // F. A line that was guessed costs nothing to describe: it follows from the ends of others.
@@ -91,10 +143,10 @@ class Pruning {
     std::vector<const std::vector<OutlineRun>*> runs;
     std::vector<char> used(plan_.lines.size(), 0);
     double energy = 0.0;
-    for (const Outline* outline : stack) {
-      energy += outline->energy;
-      runs.push_back(&outline->runs);
-      for (const OutlineRun& run : outline->runs) {
+    for (const Labels* labels : stack) {
+      energy += labels->energy;
+      runs.push_back(&labels->runs);
+      for (const OutlineRun& run : labels->runs) {
         const auto line = static_cast<std::size_t>(plan_.edges[run.first].line);
         used[line] = plan_.lines[line].hypothetical ? 0 : 1;
       }
@@ -108,17 +160,18 @@ class Pruning {
     return energy + cost_ * (complexity + static_cast<double>(lines));
   }
 
-  bool acceptIfLower(Trials trials) {
-    const Stack stack = stackOf(trials);
+  bool acceptIfLower(const Trial& trial) {
+    Stack changed = stack();
+    for (const auto& [b, edges] : trial) changed[b] = &without(edges, b);
     std::vector<double> joints = joints_;
-    for (const auto& trial : trials) {
-      for (const std::size_t b : {trial.first, trial.first + 1}) joints[b] = jointOf(stack, b);
+    for (const auto& [block, edges] : trial) {
+      for (const std::size_t b : {block, block + 1}) joints[b] = jointOf(changed, b);
     }
-    const double objective = objectiveOf(stack, joints);
+    const double objective = objectiveOf(changed, joints);
     if (objective >= objective_ - kLeastGain * cost_) return false;
     objective_ = objective;
     joints_ = std::move(joints);
-    for (auto& [b, outline] : trials) outlines_[b] = std::move(outline);
+    for (const auto& [b, edges] : trial) take(edges, b);
     return true;
   }
 
@@ -128,66 +181,58 @@ class Pruning {
   }
 
   bool dropRun(std::size_t b) {
-    std::vector<OutlineRun> runs = outlines_[b].runs;
+    std::vector<OutlineRun> runs = outlines_[b].labels.runs;
     std::stable_sort(runs.begin(), runs.end(), [](const OutlineRun& one, const OutlineRun& other) {
       return one.seen < other.seen;
     });
     for (const OutlineRun& run : runs) {
       if (run.seen > kTriedUpTo * cost_) return false;
       if (!tried_[b].emplace(run.first, run.last).second) continue;
-      if (acceptIfLower({{b, cutWithout(b, run)}})) return true;
-      Trials face = cutWithoutFace(b, run);
-      if (face.size() > 1 && acceptIfLower(std::move(face))) return true;
+      if (acceptIfLower({{b, rangeOf(run)}})) return true;
+      const Trial face = faceOf(b, run);
+      if (face.size() > 1 && acceptIfLower(face)) return true;
     }
     return false;
   }
 
-  Outline cutWithout(std::size_t b, const OutlineRun& run) const {
-    Outline trial = outlines_[b];
-    for (std::size_t e = run.first; e <= run.last; ++e) trial.cut.tie(e);
-    cutAgain(blocks_[b].terms, trial);
-    return trial;
-  }
-
-  // Without the run and those that continue it in the blocks above and below.
-  Trials cutWithoutFace(std::size_t b, const OutlineRun& run) const {
-    Trials trials;
-    trials.emplace(b, cutWithout(b, run));
+  // The run and those that continue it in the blocks above and below.
+  Trial faceOf(std::size_t b, const OutlineRun& run) const {
+    Trial face{{b, rangeOf(run)}};
     for (const int step : {1, -1}) {
       OutlineRun last = run;
       for (std::size_t next = b + static_cast<std::size_t>(step); next < outlines_.size();
            next += static_cast<std::size_t>(step)) {
-        const std::vector<OutlineRun>& runs = outlines_[next].runs;
+        const std::vector<OutlineRun>& runs = outlines_[next].labels.runs;
         const auto same = std::find_if(runs.begin(), runs.end(), [&](const OutlineRun& other) {
           return other.side == last.side && other.first <= last.last && last.first <= other.last;
         });
         if (same == runs.end()) break;
         last = *same;
-        trials.emplace(next, cutWithout(next, last));
+        face.emplace(next, rangeOf(last));
       }
     }
-    return trials;
+    return face;
   }
 
   // The block and the one above it as one; what is tied in both stays so.
   Outline cutMerged(std::size_t b, const CellTerms& terms) const {
-    Outline merged{LabelCut(plan_, terms, gap_), {}, 0.0, {}};
+    Outline merged{LabelCut(plan_, terms, gap_), {}, {}};
     for (std::size_t e = 0; e < plan_.edges.size(); ++e) {
       if (outlines_[b].cut.tied(e) && outlines_[b + 1].cut.tied(e)) merged.cut.tie(e);
     }
-    cutAgain(terms, merged);
+    merged.labels = cutAgain(terms, merged.cut);
     return merged;
   }
 
   // F with one outline in place of that of a block and the one above it.
-  double objectiveOfMerge(std::size_t b, const Outline& merged) const {
-    Stack stack = stackOf({});
+  double objectiveOfMerge(std::size_t b, const Labels& merged) const {
+    Stack changed = stack();
     std::vector<double> joints = joints_;
-    stack[b] = &merged;
-    stack.erase(stack.begin() + static_cast<std::ptrdiff_t>(b) + 1);
+    changed[b] = &merged;
+    changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(b) + 1);
     joints.erase(joints.begin() + static_cast<std::ptrdiff_t>(b) + 1);
-    for (const std::size_t joint : {b, b + 1}) joints[joint] = jointOf(stack, joint);
-    return objectiveOf(stack, joints);
+    for (const std::size_t joint : {b, b + 1}) joints[joint] = jointOf(changed, joint);
+    return objectiveOf(changed, joints);
   }
 
   // The merge of two neighbours with the least F, if that is no higher: of equals one block is the
@@ -195,19 +240,18 @@ class Pruning {
   bool mergeBlocks() {
     double best = objective_ + kLeastGain * cost_;
     std::size_t lower = SIZE_MAX;
-    Trials best_outline;
+    std::optional<Outline> best_outline;
     for (std::size_t b = 0; b + 1 < outlines_.size(); ++b) {
       Outline merged = cutMerged(b, termsOfMerge(b));
-      const double objective = objectiveOfMerge(b, merged);
+      const double objective = objectiveOfMerge(b, merged.labels);
       if (objective >= best) continue;
       best = objective;
       lower = b;
-      best_outline.clear();
-      best_outline.emplace(b, std::move(merged));
+      best_outline = std::move(merged);
     }
-    if (lower == SIZE_MAX) return false;
+    if (!best_outline) return false;
     objective_ = best;
-    takeMerge(lower, std::move(best_outline.at(lower)));
+    takeMerge(lower, std::move(*best_outline));
     dropRuns(lower);
     return true;
   }
@@ -234,7 +278,7 @@ class Pruning {
   std::vector<double> seenByLine() const {
     std::vector<double> seen(plan_.lines.size(), -1.0);
     for (const Outline& outline : outlines_) {
-      for (const OutlineRun& run : outline.runs) {
+      for (const OutlineRun& run : outline.labels.runs) {
         double& sum = seen[static_cast<std::size_t>(plan_.edges[run.first].line)];
         sum = std::max(0.0, sum) + run.seen;
       }
@@ -254,21 +298,16 @@ class Pruning {
   }
 
   void dropLine(std::size_t line) {
-    Trials trials;
+    const EdgeRange edges = edgesOf(plan_, line);
+    Trial trial;
     for (std::size_t b = 0; b < outlines_.size(); ++b) {
-      const std::vector<OutlineRun>& runs = outlines_[b].runs;
+      const std::vector<OutlineRun>& runs = outlines_[b].labels.runs;
       const bool used = std::any_of(runs.begin(), runs.end(), [&](const OutlineRun& run) {
-        return static_cast<std::size_t>(plan_.edges[run.first].line) == line;
+        return run.first >= edges.first && run.first <= edges.last;
       });
-      if (!used) continue;
-      Outline trial = outlines_[b];
-      for (std::size_t e = 0; e < plan_.edges.size(); ++e) {
-        if (static_cast<std::size_t>(plan_.edges[e].line) == line) trial.cut.tie(e);
-      }
-      cutAgain(blocks_[b].terms, trial);
-      trials.emplace(b, std::move(trial));
+      if (used) trial.emplace(b, edges);
     }
-    if (!trials.empty()) acceptIfLower(std::move(trials));
+    if (!trial.empty()) acceptIfLower(trial);
   }
 
   const LineArrangement& plan_;
