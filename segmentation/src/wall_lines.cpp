@@ -69,10 +69,10 @@ void extractGreedily(const std::vector<WallPoint>& points, const PointBlocks& bl
 
 // Walls at heights with much fewer points than the rest, octave by octave of their density.
 void extractThinParts(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                      const WallScale& scale, const WallLineOptions& options,
-                      const std::vector<double>& locked, const std::vector<double>& all_around,
-                      std::vector<char>& free, std::vector<FoundLine>& lines) {
-  const HeightDensity density(points, scale);
+                      const WallScale& scale, const HeightDensity& density,
+                      const WallLineOptions& options, const std::vector<double>& locked,
+                      const std::vector<double>& all_around, std::vector<char>& free,
+                      std::vector<FoundLine>& lines) {
   const double least = kThinnest * scale.density;
   for (double most = kThin * scale.density; most > std::max(least, density.least()); most *= 0.5) {
     WallScale thin = scale;
@@ -197,12 +197,13 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
     extractGreedily(points, blocks, scale, options, false, oriented, free, lines);
   }
   extractGreedily(points, blocks, scale, options, true, all_around, free, lines);
+  const HeightDensity density(points, scale, options.threads);
   if (options.steps.thin_heights)
-    extractThinParts(points, blocks, scale, options, oriented, all_around, free, lines);
+    extractThinParts(points, blocks, scale, density, options, oriented, all_around, free, lines);
   if (options.steps.thin_facades && !oriented.empty())
     extractThinFacades(points, blocks, scale, options, oriented, free, lines);
   if (options.steps.short_walls && !oriented.empty())
-    extractShortWalls(points, blocks, scale, options, oriented, free, lines);
+    extractShortWalls(points, blocks, scale, density, options, oriented, free, lines);
 
   std::stable_sort(lines.begin(), lines.end(), [](const FoundLine& a, const FoundLine& b) {
     return a.line.support > b.line.support;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace storey::detail {
 namespace {
@@ -91,8 +92,9 @@ void VoteTable::vote(const std::vector<int>& numbers, int amount) {
         if (!sure && normal.dot(ballots.normals[i]) < least) continue;
         row[binOf(normal.dot(ballots.positions[i]))] += amount;
       }
-      changed_[a] = 1;
     });
+    // Where votes are taken away, the strongest window stays so unless it loses some.
+    if (amount > 0 || votesIn(a, peaks_[a].bin) != peaks_[a].votes) changed_[a] = 1;
   }
 }
 
@@ -138,6 +140,12 @@ VoteTable::Peak VoteTable::strongestOf(std::size_t angle) const {
     }
   }
   return best;
+}
+
+int VoteTable::votesIn(std::size_t angle, int bin) const {
+  const int* row = votes_.data() + angle * static_cast<std::size_t>(bins_);
+  const int end = bin + window_ / 2 + 1;
+  return std::accumulate(row + std::max(0, end - window_), row + end, 0);
 }
 
 bool VoteTable::struckOut(std::size_t angle, int bin) const {

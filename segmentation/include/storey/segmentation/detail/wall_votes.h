@@ -40,6 +40,7 @@ class VoteTable {
     return bin < 0 ? 0 : bin < bins_ ? bin : bins_ - 1;
   }
   Peak strongestOf(std::size_t angle) const;
+  int votesIn(std::size_t angle, int bin) const;  // in the window about the bin
   bool struckOut(std::size_t angle, int bin) const;
 
   const std::vector<WallPoint>& points_;
