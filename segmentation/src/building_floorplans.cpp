@@ -186,7 +186,8 @@ BuildingFloorplans extractBuildingFloorplans(const WallInput& input,
   if (result.walls.size() < 2) return result;
   if (options.steps.hypotheses) {
     const double corner_gap = std::sqrt(kPlanarNeighbors / (M_PI * input.scale.density));
-    result.hypotheses = hypothesiseLines(result.walls, input.sample, sample_scale, corner_gap);
+    result.hypotheses =
+        hypothesiseLines(result.walls, input.sample, sample_scale, corner_gap, options.threads);
   }
 
   Labeling labeling(input, options, result);
