@@ -98,7 +98,7 @@ std::vector<CellBlock> labelCells(const LineArrangement& plan, const WallEvidenc
                                   const CellEnergyOptions& options, unsigned int threads) {
   if (levels.size() < 2) return {};
   const std::vector<CellTerms> layers =
-      termsOfLayers(plan, evidence, levels, level_points, options.level);
+      termsOfLayers(plan, evidence, levels, level_points, options.level, threads);
   const std::vector<std::size_t> bounds =
       bestPartition(plan, layers, options.gap, options.block, threads);
   std::vector<CellBlock> blocks;
