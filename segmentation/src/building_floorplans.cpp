@@ -117,7 +117,7 @@ class Labeling {
 
   void simplify(const SimplicityLimits& limits) {
     result_.trade_off =
-        simplifyOutlines(result_.plan, energy_.gap, face_cost_, limits, result_.blocks);
+        simplifyOutlines(result_.plan, energy_.gap, face_cost_, limits, result_.blocks, threads_);
   }
 
   void takeOutlines(double min_area) {
@@ -139,7 +139,8 @@ class Labeling {
   }
 
   void prune() {
-    if (steps_.pruning) pruneOutlines(result_.plan, energy_.gap, face_cost_, result_.blocks);
+    if (!steps_.pruning) return;
+    pruneOutlines(result_.plan, energy_.gap, face_cost_, result_.blocks, true, threads_);
   }
 
   void label() {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/outline_faces.h>
 #include <storey/segmentation/detail/outline_pruning.h>
 
@@ -6,8 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numeric>
-#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -53,22 +54,27 @@ struct Outline {
   LabelCut cut;
   Labels labels;
   std::map<EdgeRange, Labels> without;  // the best that do without some edges, as far as tried
+  std::unique_ptr<Outline> merged;      // with the block above as one, if tried
 };
 
 class Pruning {
  public:
   Pruning(const LineArrangement& plan, double gap, double cost, bool may_vanish,
-          std::vector<CellBlock>& blocks)
+          unsigned int threads, std::vector<CellBlock>& blocks)
       : plan_(plan),
         neighbors_(plan),
         gap_(gap),
         cost_(cost),
         may_vanish_(may_vanish),
+        threads_(threads),
         blocks_(blocks) {
     for (const CellBlock& block : blocks) {
       Labels labels{block.inside, block.energy, runsOf(plan, block.terms, block.inside)};
-      outlines_.push_back({LabelCut(plan, block.terms, gap), std::move(labels), {}});
-      outlines_.back().cut.solve();  // once; trials go on from there
+      outlines_.push_back({LabelCut(plan, block.terms, gap), std::move(labels), {}, {}});
+    }
+#pragma omp parallel for num_threads(threadsFor(threads_)) schedule(dynamic, 1)
+    for (std::ptrdiff_t b = 0; b < static_cast<std::ptrdiff_t>(outlines_.size()); ++b) {
+      outlines_[static_cast<std::size_t>(b)].cut.solve();  // once; trials go on from there
     }
     tried_.resize(blocks.size());
     measureJoints();
@@ -119,6 +125,12 @@ class Pruning {
     outline.without.clear();
     tie(edges, outline.cut);
     outline.cut.solve();
+    forgetMerges(b);
+  }
+
+  void forgetMerges(std::size_t b) {
+    outlines_[b].merged.reset();
+    if (b > 0) outlines_[b - 1].merged.reset();
   }
 
   Stack stack() const {
@@ -215,13 +227,22 @@ class Pruning {
   }
 
   // The block and the one above it as one; what is tied in both stays so.
-  Outline cutMerged(std::size_t b, const CellTerms& terms) const {
-    Outline merged{LabelCut(plan_, terms, gap_), {}, {}};
+  Outline cutMerged(std::size_t b) const {
+    const CellTerms terms = termsOfMerge(b);
+    Outline merged{LabelCut(plan_, terms, gap_), {}, {}, {}};
     for (std::size_t e = 0; e < plan_.edges.size(); ++e) {
       if (outlines_[b].cut.tied(e) && outlines_[b + 1].cut.tied(e)) merged.cut.tie(e);
     }
     merged.labels = cutAgain(terms, merged.cut);
     return merged;
+  }
+
+  void cutAllMerged() {
+#pragma omp parallel for num_threads(threadsFor(threads_)) schedule(dynamic, 1)
+    for (std::ptrdiff_t i = 1; i < static_cast<std::ptrdiff_t>(outlines_.size()); ++i) {
+      const auto b = static_cast<std::size_t>(i) - 1;
+      if (!outlines_[b].merged) outlines_[b].merged = std::make_unique<Outline>(cutMerged(b));
+    }
   }
 
   // F with one outline in place of that of a block and the one above it.
@@ -238,20 +259,18 @@ class Pruning {
   // The merge of two neighbours with the least F, if that is no higher: of equals one block is the
   // simpler description.
   bool mergeBlocks() {
+    cutAllMerged();
     double best = objective_ + kLeastGain * cost_;
     std::size_t lower = SIZE_MAX;
-    std::optional<Outline> best_outline;
     for (std::size_t b = 0; b + 1 < outlines_.size(); ++b) {
-      Outline merged = cutMerged(b, termsOfMerge(b));
-      const double objective = objectiveOfMerge(b, merged.labels);
+      const double objective = objectiveOfMerge(b, outlines_[b].merged->labels);
       if (objective >= best) continue;
       best = objective;
       lower = b;
-      best_outline = std::move(merged);
     }
-    if (!best_outline) return false;
+    if (lower == SIZE_MAX) return false;
     objective_ = best;
-    takeMerge(lower, std::move(*best_outline));
+    takeMerge(lower);
     dropRuns(lower);
     return true;
   }
@@ -262,11 +281,12 @@ class Pruning {
     return terms;
   }
 
-  void takeMerge(std::size_t b, Outline merged) {
+  void takeMerge(std::size_t b) {
     const auto upper = static_cast<std::ptrdiff_t>(b) + 1;
     blocks_[b].terms = termsOfMerge(b);
     blocks_[b].last_bin = blocks_[b + 1].last_bin;
-    outlines_[b] = std::move(merged);
+    outlines_[b] = Outline(std::move(*outlines_[b].merged));
+    forgetMerges(b);
     tried_[b].clear();
     blocks_.erase(blocks_.begin() + upper);
     outlines_.erase(outlines_.begin() + upper);
@@ -315,6 +335,7 @@ class Pruning {
   double gap_;
   double cost_;
   bool may_vanish_;
+  unsigned int threads_;
   std::vector<CellBlock>& blocks_;
   std::vector<Outline> outlines_;                                     // of each block
   std::vector<std::set<std::pair<std::size_t, std::size_t>>> tried_;  // runs that earn their cost
@@ -325,9 +346,9 @@ class Pruning {
 }  // namespace
 
 void pruneOutlines(const LineArrangement& plan, double gap, double cost,
-                   std::vector<CellBlock>& blocks, bool may_vanish) {
+                   std::vector<CellBlock>& blocks, bool may_vanish, unsigned int threads) {
   if (!(cost > 0.0) || blocks.empty()) return;
-  Pruning(plan, gap, cost, may_vanish, blocks).run();
+  Pruning(plan, gap, cost, may_vanish, threads, blocks).run();
   for (CellBlock& block : blocks) block.measureCoverage();
 }
 
