@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/task_crew.h>
 #include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/cell_labels.h>
 
@@ -63,15 +64,15 @@ std::vector<std::size_t> bestPartition(const LineArrangement& plan,
   std::vector<std::unique_ptr<GrowingRange>> ranges(layers.size());
   std::vector<double> energies(layers.size());
   std::vector<std::size_t> open;  // starts, ascending
+  TaskCrew crew(threadsFor(threads));
   for (std::size_t end = 1; end <= layers.size(); ++end) {
     open.push_back(end - 1);
-#pragma omp parallel for num_threads(threadsFor(threads)) schedule(dynamic, 1)
-    for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(open.size()); ++i) {
-      const std::size_t start = open[open.size() - 1 - static_cast<std::size_t>(i)];
+    crew.run(open.size(), [&](std::size_t i) {
+      const std::size_t start = open[open.size() - 1 - i];
       if (start + 1 == end)
         ranges[start] = std::make_unique<GrowingRange>(plan, layers, start, gap);
       energies[start] = best[start] + ranges[start]->energyWith(layers[end - 1]);
-    }
+    });
     for (const std::size_t start : open) {
       if (energies[start] + cost >= best[end]) continue;
       best[end] = energies[start] + cost;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/task_crew.h>
 #include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/outline_faces.h>
 #include <storey/segmentation/detail/outline_pruning.h>
@@ -66,16 +67,15 @@ class Pruning {
         gap_(gap),
         cost_(cost),
         may_vanish_(may_vanish),
-        threads_(threads),
+        crew_(threadsFor(threads)),
         blocks_(blocks) {
     for (const CellBlock& block : blocks) {
       Labels labels{block.inside, block.energy, runsOf(plan, block.terms, block.inside)};
       outlines_.push_back({LabelCut(plan, block.terms, gap), std::move(labels), {}, {}});
     }
-#pragma omp parallel for num_threads(threadsFor(threads_)) schedule(dynamic, 1)
-    for (std::ptrdiff_t b = 0; b < static_cast<std::ptrdiff_t>(outlines_.size()); ++b) {
-      outlines_[static_cast<std::size_t>(b)].cut.solve();  // once; trials go on from there
-    }
+    crew_.run(outlines_.size(), [&](std::size_t b) {
+      outlines_[b].cut.solve();  // once; trials go on from there
+    });
     tried_.resize(blocks.size());
     measureJoints();
     objective_ = objectiveOf(stack(), joints_);
@@ -238,11 +238,13 @@ class Pruning {
   }
 
   void cutAllMerged() {
-#pragma omp parallel for num_threads(threadsFor(threads_)) schedule(dynamic, 1)
-    for (std::ptrdiff_t i = 1; i < static_cast<std::ptrdiff_t>(outlines_.size()); ++i) {
-      const auto b = static_cast<std::size_t>(i) - 1;
-      if (!outlines_[b].merged) outlines_[b].merged = std::make_unique<Outline>(cutMerged(b));
+    std::vector<std::size_t> missing;
+    for (std::size_t b = 0; b + 1 < outlines_.size(); ++b) {
+      if (!outlines_[b].merged) missing.push_back(b);
     }
+    crew_.run(missing.size(), [&](std::size_t i) {
+      outlines_[missing[i]].merged = std::make_unique<Outline>(cutMerged(missing[i]));
+    });
   }
 
   // F with one outline in place of that of a block and the one above it.
@@ -335,7 +337,7 @@ class Pruning {
   double gap_;
   double cost_;
   bool may_vanish_;
-  unsigned int threads_;
+  TaskCrew crew_;
   std::vector<CellBlock>& blocks_;
   std::vector<Outline> outlines_;                                     // of each block
   std::vector<std::set<std::pair<std::size_t, std::size_t>>> tried_;  // runs that earn their cost
