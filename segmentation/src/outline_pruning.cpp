@@ -109,14 +109,18 @@ class Pruning {
     for (std::size_t e = edges.first; e <= edges.last; ++e) cut.tie(e);
   }
 
+  Labels cutWithout(const EdgeRange& edges, std::size_t b) const {
+    LabelCut cut = outlines_[b].cut;
+    tie(edges, cut);
+    return cutAgain(blocks_[b].terms, cut);
+  }
+
   // Cut once for as long as the outline stays.
   const Labels& without(const EdgeRange& edges, std::size_t b) {
     auto& known = outlines_[b].without;
     const auto found = known.find(edges);
-    if (found != known.end()) return found->second;
-    LabelCut cut = outlines_[b].cut;
-    tie(edges, cut);
-    return known.emplace(edges, cutAgain(blocks_[b].terms, cut)).first->second;
+    return found != known.end() ? found->second
+                                : known.emplace(edges, cutWithout(edges, b)).first->second;
   }
 
   void take(const EdgeRange& edges, std::size_t b) {
@@ -193,18 +197,52 @@ class Pruning {
   }
 
   bool dropRun(std::size_t b) {
-    std::vector<OutlineRun> runs = outlines_[b].labels.runs;
-    std::stable_sort(runs.begin(), runs.end(), [](const OutlineRun& one, const OutlineRun& other) {
-      return one.seen < other.seen;
-    });
-    for (const OutlineRun& run : runs) {
-      if (run.seen > kTriedUpTo * cost_) return false;
-      if (!tried_[b].emplace(run.first, run.last).second) continue;
-      if (acceptIfLower({{b, rangeOf(run)}})) return true;
-      const Trial face = faceOf(b, run);
+    const std::vector<OutlineRun> runs = untriedRuns(b);
+    std::size_t cut = 0;
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      if (r == cut) {  // the longer nothing was taken away, the further ahead
+        cut = std::min(runs.size(), 2 * cut + 1);
+        cutAhead(b, runs.begin() + static_cast<std::ptrdiff_t>(r),
+                 runs.begin() + static_cast<std::ptrdiff_t>(cut));
+      }
+      const EdgeRange edges = rangeOf(runs[r]);
+      tried_[b].insert(edges);
+      if (acceptIfLower({{b, edges}})) return true;
+      const Trial face = faceOf(b, runs[r]);
       if (face.size() > 1 && acceptIfLower(face)) return true;
     }
     return false;
+  }
+
+  // Those with the least to show first.
+  std::vector<OutlineRun> untriedRuns(std::size_t b) const {
+    std::vector<OutlineRun> runs;
+    for (const OutlineRun& run : outlines_[b].labels.runs) {
+      if (run.seen <= kTriedUpTo * cost_ && tried_[b].count(rangeOf(run)) == 0) runs.push_back(run);
+    }
+    std::stable_sort(runs.begin(), runs.end(), [](const OutlineRun& one, const OutlineRun& other) {
+      return one.seen < other.seen;
+    });
+    return runs;
+  }
+
+  // Cuts side by side what trials of some runs will ask for. One thread cuts what they do ask for.
+  template <typename Iterator>
+  void cutAhead(std::size_t b, Iterator from, Iterator to) {
+    if (crew_.size() == 1) return;
+    std::set<std::pair<std::size_t, EdgeRange>> asked;
+    for (auto run = from; run != to; ++run) {
+      for (const auto& [block, edges] : faceOf(b, *run)) {
+        if (outlines_[block].without.count(edges) == 0) asked.emplace(block, edges);
+      }
+    }
+    const std::vector<std::pair<std::size_t, EdgeRange>> list(asked.begin(), asked.end());
+    std::vector<Labels> found(list.size());
+    crew_.run(list.size(),
+              [&](std::size_t i) { found[i] = cutWithout(list[i].second, list[i].first); });
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      outlines_[list[i].first].without.emplace(list[i].second, std::move(found[i]));
+    }
   }
 
   // The run and those that continue it in the blocks above and below.
@@ -339,9 +377,9 @@ class Pruning {
   bool may_vanish_;
   TaskCrew crew_;
   std::vector<CellBlock>& blocks_;
-  std::vector<Outline> outlines_;                                     // of each block
-  std::vector<std::set<std::pair<std::size_t, std::size_t>>> tried_;  // runs that earn their cost
-  std::vector<double> joints_;  // below each block, and above the last
+  std::vector<Outline> outlines_;           // of each block
+  std::vector<std::set<EdgeRange>> tried_;  // runs that earn their cost
+  std::vector<double> joints_;              // below each block, and above the last
   double objective_ = 0.0;
 };
 
