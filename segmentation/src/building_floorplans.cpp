@@ -116,7 +116,7 @@ class Labeling {
 
   void simplify(const SimplicityLimits& limits) {
     result_.trade_off =
-        simplifyOutlines(result_.plan, energy_.gap, face_cost_, limits, result_.blocks);
+        simplifyOutlines(result_.plan, energy_.gap, face_cost_, limits, result_.blocks, threads_);
   }
 
   void takeOutlines(double min_area) {
@@ -138,7 +138,8 @@ class Labeling {
   }
 
   void prune() {
-    if (steps_.pruning) pruneOutlines(result_.plan, energy_.gap, face_cost_, result_.blocks);
+    if (!steps_.pruning) return;
+    pruneOutlines(result_.plan, energy_.gap, face_cost_, result_.blocks, true, threads_);
   }
 
   void label() {
@@ -184,8 +185,8 @@ BuildingFloorplans extractBuildingFloorplans(const WallInput& input,
                                {options.min_wall_area, options.steps, options.threads});
   if (result.walls.size() < 2) return result;
   if (options.steps.hypotheses) {
-    result.hypotheses =
-        hypothesiseLines(result.walls, input.sample, sample_scale, cornerGap(input.scale.density));
+    result.hypotheses = hypothesiseLines(result.walls, input.sample, sample_scale,
+                                         cornerGap(input.scale.density), options.threads);
   }
 
   Labeling labeling(input, options, result);

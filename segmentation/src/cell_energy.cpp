@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/chunks.h>
 #include <storey/segmentation/detail/cell_energy.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,49 +33,72 @@ bool holds(const PlanCell& cell, const Eigen::Vector2d& p) {
 // Heights of the horizontal points in a cell, ascending: of those that look down, and up.
 using LevelHeights = std::array<std::vector<double>, 2>;
 
-// The cell of each horizontal point, by a coarse grid of candidate cells.
-std::vector<LevelHeights> heightsByCell(const LineArrangement& plan,
-                                        const std::vector<LevelPoint>& points) {
-  std::vector<LevelHeights> by_cell(plan.cells.size());
-  if (points.empty()) return by_cell;
-  constexpr int kGrid = 128;
-  Eigen::Vector2d low = plan.cells.front().corners.front();
-  Eigen::Vector2d high = low;
-  for (const PlanCell& cell : plan.cells) {
-    for (const Eigen::Vector2d& corner : cell.corners) {
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
+// Finds the cell that a place is in, by a coarse grid of candidate cells.
+class CellFinder {
+ public:
+  explicit CellFinder(const LineArrangement& plan) : plan_(plan), candidates_(kGrid * kGrid) {
+    std::vector<PlanBox> boxes;
+    PlanBox all;
+    for (const PlanCell& cell : plan.cells) {
+      boxes.emplace_back();
+      for (const Eigen::Vector2d& corner : cell.corners) boxes.back().extend(corner);
+      all.extend(boxes.back());
     }
-  }
-  const Eigen::Vector2d step = (high - low) / kGrid;
-  const auto indexOf = [&](const Eigen::Vector2d& p, int axis) {
-    return static_cast<int>(std::clamp((p[axis] - low[axis]) / step[axis], 0.0, kGrid - 1.0));
-  };
-  std::vector<std::vector<int>> candidates(kGrid * kGrid);
-  for (std::size_t c = 0; c < plan.cells.size(); ++c) {
-    Eigen::Vector2d a = plan.cells[c].corners.front();
-    Eigen::Vector2d b = a;
-    for (const Eigen::Vector2d& corner : plan.cells[c].corners) {
-      a = a.cwiseMin(corner);
-      b = b.cwiseMax(corner);
-    }
-    for (int y = indexOf(a, 1); y <= indexOf(b, 1); ++y) {
-      for (int x = indexOf(a, 0); x <= indexOf(b, 0); ++x) {
-        candidates[static_cast<std::size_t>(y * kGrid + x)].push_back(static_cast<int>(c));
+    low_ = all.min();
+    step_ = all.sizes() / kGrid;
+    for (std::size_t c = 0; c < boxes.size(); ++c) {
+      const Eigen::Vector2d from = boxes[c].min();
+      const Eigen::Vector2d to = boxes[c].max();
+      for (int y = indexOf(from, 1); y <= indexOf(to, 1); ++y) {
+        for (int x = indexOf(from, 0); x <= indexOf(to, 0); ++x) {
+          candidates_[static_cast<std::size_t>(y * kGrid + x)].push_back(c);
+        }
       }
     }
   }
-  for (const LevelPoint& p : points) {
-    const auto g =
-        static_cast<std::size_t>(indexOf(p.position, 1) * kGrid + indexOf(p.position, 0));
-    for (const int c : candidates[g]) {
-      if (!holds(plan.cells[static_cast<std::size_t>(c)], p.position)) continue;
-      by_cell[static_cast<std::size_t>(c)][p.up ? 1 : 0].push_back(p.z);
-      break;
+
+  // The number of cells if it is in none.
+  std::size_t cellOf(const Eigen::Vector2d& p) const {
+    for (const std::size_t c :
+         candidates_[static_cast<std::size_t>(indexOf(p, 1) * kGrid + indexOf(p, 0))]) {
+      if (holds(plan_.cells[c], p)) return c;
     }
+    return plan_.cells.size();
   }
-  for (LevelHeights& heights : by_cell) {
-    for (std::vector<double>& list : heights) std::sort(list.begin(), list.end());
+
+ private:
+  using PlanBox = Eigen::AlignedBox2d;
+  static constexpr int kGrid = 128;
+
+  int indexOf(const Eigen::Vector2d& p, int axis) const {
+    return static_cast<int>(std::clamp((p[axis] - low_[axis]) / step_[axis], 0.0, kGrid - 1.0));
+  }
+
+  const LineArrangement& plan_;
+  Eigen::Vector2d low_;
+  Eigen::Vector2d step_;
+  std::vector<std::vector<std::size_t>> candidates_;
+};
+
+std::vector<LevelHeights> heightsByCell(const LineArrangement& plan,
+                                        const std::vector<LevelPoint>& points,
+                                        unsigned int threads) {
+  std::vector<LevelHeights> by_cell(plan.cells.size());
+  if (points.empty()) return by_cell;
+  const CellFinder finder(plan);
+  std::vector<std::size_t> cell_of(points.size());
+  forEachChunk(points.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) cell_of[i] = finder.cellOf(points[i].position);
+  });
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (cell_of[i] == plan.cells.size()) continue;
+    by_cell[cell_of[i]][points[i].up ? 1 : 0].push_back(points[i].z);
+  }
+#pragma omp parallel for num_threads(threadsFor(threads)) schedule(dynamic, 16)
+  for (std::ptrdiff_t c = 0; c < static_cast<std::ptrdiff_t>(by_cell.size()); ++c) {
+    for (std::vector<double>& list : by_cell[static_cast<std::size_t>(c)]) {
+      std::sort(list.begin(), list.end());
+    }
   }
   return by_cell;
 }
@@ -130,13 +155,15 @@ CellTerms termsOfBins(const LineArrangement& plan, const WallEvidence& evidence,
 std::vector<CellTerms> termsOfLayers(const LineArrangement& plan, const WallEvidence& evidence,
                                      const std::vector<std::size_t>& levels,
                                      const std::vector<LevelPoint>& level_points,
-                                     double level_weight) {
-  const auto by_cell = heightsByCell(plan, level_points);
-  std::vector<CellTerms> layers;
-  for (std::size_t l = 0; l + 1 < levels.size(); ++l) {
-    layers.push_back(termsOfBins(plan, evidence, levels[l], levels[l + 1]));
+                                     double level_weight, unsigned int threads) {
+  const auto by_cell = heightsByCell(plan, level_points, threads);
+  std::vector<CellTerms> layers(levels.size() - 1);
+#pragma omp parallel for num_threads(threadsFor(threads)) schedule(dynamic, 1)
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(layers.size()); ++i) {
+    const auto l = static_cast<std::size_t>(i);
+    layers[l] = termsOfBins(plan, evidence, levels[l], levels[l + 1]);
     addLevelTerms(plan, by_cell, evidence.heightOf(levels[l]), evidence.heightOf(levels[l + 1]),
-                  level_weight, layers.back());
+                  level_weight, layers[l]);
   }
   return layers;
 }

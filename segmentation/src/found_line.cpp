@@ -62,17 +62,24 @@ void addPerpendiculars(std::vector<double>& angles) {
 }  // namespace
 
 std::vector<int> candidatesFor(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                               const std::vector<char>& free, const WallLine& line, double noise) {
+                               const std::vector<char>& free, const WallLine& line, double noise,
+                               const LineStretch& stretch) {
   const double gate = kCandidateGate * noise;
   std::vector<int> candidates;
   const double agreement = std::cos(kVoteAngle);
   for (std::size_t block = 0; block < blocks.size(); ++block) {
-    if (!blocks.mayBeNear(block, line.normal, line.offset, gate)) continue;
+    if (!blocks.mayBeNear(block, line.normal, line.offset, gate) ||
+        !blocks.mayBeBetween(block, line.tangent(), stretch.s_min, stretch.s_max)) {
+      continue;
+    }
     for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) {
-      if (free[i] != 0 && std::abs(line.across(points[i].position)) < gate &&
-          line.normal.dot(points[i].normal) >= agreement) {
-        candidates.push_back(static_cast<int>(i));
+      const WallPoint& p = points[i];
+      if (free[i] == 0 || std::abs(line.across(p.position)) >= gate ||
+          line.normal.dot(p.normal) < agreement) {
+        continue;
       }
+      const double s = line.along(p.position);
+      if (s >= stretch.s_min && s <= stretch.s_max) candidates.push_back(static_cast<int>(i));
     }
   }
   return candidates;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace storey::detail {
 namespace {
@@ -43,41 +44,57 @@ class StretchFinder {
       : evidence_(evidence), blocks_(blocks), gate_(gate), used_(plan.lines.size(), 0) {
     for (const CellBlock& block : blocks) {
       stretches_.push_back(stretchesOf(plan, block));
-      for (const Stretch& stretch : stretches_.back()) used_[stretch.line] = 1;
+      std::vector<std::size_t> first(plan.lines.size() + 1, 0);
+      for (const Stretch& stretch : stretches_.back()) {
+        used_[stretch.line] = 1;
+        ++first[stretch.line + 1];
+      }
+      for (std::size_t l = 0; l < plan.lines.size(); ++l) first[l + 1] += first[l];
+      first_.push_back(std::move(first));
     }
   }
 
   bool isUsed(std::size_t line) const { return used_[line] != 0; }
 
-  // Whether points of a run may be near each of the lines.
-  std::vector<char> linesNear(const std::vector<PlanLine>& lines, const PointBlocks& runs,
-                              std::size_t run) const {
-    std::vector<char> near(lines.size(), 0);
+  // The used lines that points of a run may be near, ascending.
+  std::vector<std::size_t> linesNear(const std::vector<PlanLine>& lines, const PointBlocks& runs,
+                                     std::size_t run) const {
+    std::vector<std::size_t> near;
     for (std::size_t l = 0; l < lines.size(); ++l) {
-      near[l] = isUsed(l) && runs.mayBeNear(run, lines[l].normal, lines[l].offset, gate_);
+      if (isUsed(l) && runs.mayBeNear(run, lines[l].normal, lines[l].offset, gate_)) {
+        near.push_back(l);
+      }
     }
     return near;
   }
 
   // The line of the nearest stretch that the point confirms; the number of lines if there is none.
   std::size_t lineOf(const WallPoint& p, const std::vector<PlanLine>& lines,
-                     const std::vector<char>& near) const {
+                     const std::vector<std::size_t>& near) const {
     const auto bin = static_cast<std::size_t>((p.z - evidence_.z_min) / evidence_.bin);
     const auto block = std::find_if(blocks_.begin(), blocks_.end(), [&](const CellBlock& b) {
       return bin < b.last_bin || (bin + 1 >= evidence_.num_bins && &b == &blocks_.back());
     });
     std::size_t found = lines.size();
     if (block == blocks_.end()) return found;
+    const auto b = static_cast<std::size_t>(block - blocks_.begin());
     double nearest = gate_;
-    for (const Stretch& stretch : stretches_[static_cast<std::size_t>(block - blocks_.begin())]) {
-      if (near[stretch.line] == 0) continue;
-      const PlanLine& line = lines[stretch.line];
+    for (const std::size_t l : near) {
+      const PlanLine& line = lines[l];
       const double d = std::abs(line.across(p.position));
-      if (d >= nearest || stretch.sense * line.normal.dot(p.normal) < kMinAgreement) continue;
+      if (d >= nearest) continue;
+      const double agreement = line.normal.dot(p.normal);
       const double s = line.tangent().dot(p.position);
-      if (s < stretch.s_min || s > stretch.s_max) continue;
+      const bool on_wall =
+          std::any_of(stretches_[b].begin() + static_cast<std::ptrdiff_t>(first_[b][l]),
+                      stretches_[b].begin() + static_cast<std::ptrdiff_t>(first_[b][l + 1]),
+                      [&](const Stretch& stretch) {
+                        return stretch.sense * agreement >= kMinAgreement && s >= stretch.s_min &&
+                               s <= stretch.s_max;
+                      });
+      if (!on_wall) continue;
       nearest = d;
-      found = stretch.line;
+      found = l;
     }
     return found;
   }
@@ -86,7 +103,8 @@ class StretchFinder {
   const WallEvidence& evidence_;
   const std::vector<CellBlock>& blocks_;
   double gate_;
-  std::vector<std::vector<Stretch>> stretches_;  // by block
+  std::vector<std::vector<Stretch>> stretches_;  // by block, then by line
+  std::vector<std::vector<std::size_t>> first_;  // of each block's lines, of their stretches
   std::vector<char> used_;
 };
 
@@ -104,7 +122,7 @@ std::vector<PlanLine> refitUsedLines(const LineArrangement& plan, const WallEvid
 #pragma omp parallel for num_threads(threadsFor(threads)) schedule(dynamic, 64)
     for (std::ptrdiff_t r = 0; r < static_cast<std::ptrdiff_t>(runs.size()); ++r) {
       const auto run = static_cast<std::size_t>(r);
-      const std::vector<char> near = finder.linesNear(lines, runs, run);
+      const std::vector<std::size_t> near = finder.linesNear(lines, runs, run);
       for (std::size_t i = runs.begin(run); i < runs.end(run); ++i) {
         line_of[i] = finder.lineOf(points[i], lines, near);
       }

@@ -3,6 +3,7 @@
 #include <storey/segmentation/detail/union_find.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace storey::detail {
 namespace {
@@ -16,44 +17,44 @@ int sideOf(const PlanEdge& edge, const std::vector<char>& inside) {
          int{inside[static_cast<std::size_t>(edge.ahead)]};
 }
 
-// The connected parts of the cells with equal marks.
-UnionFind<> partsOf(const LineArrangement& plan, const std::vector<int>& marks) {
-  UnionFind<> parts(marks.size());
-  for (const PlanEdge& edge : plan.edges) {
-    const auto a = static_cast<std::size_t>(edge.behind);
-    const auto b = static_cast<std::size_t>(edge.ahead);
-    if (marks[a] != 0 && marks[a] == marks[b]) parts.unite(a, b);
-  }
-  return parts;
-}
+// What lies between two neighbouring blocks.
+struct Joint {
+  std::size_t caps = 0;      // connected parts of the cells inside in one alone, either way
+  std::size_t floating = 0;  // connected parts of the upper that rest on nothing
+};
 
-// Connected parts of the cells that one block has inside and the other has not, either way.
-// \param lower, upper null: there is no block
-std::size_t countCaps(const LineArrangement& plan, const std::vector<char>* lower,
-                      const std::vector<char>* upper) {
-  std::vector<int> change(plan.cells.size());
+// Floods the cells that change. A part of the upper block floats if all of it does and no cell
+// beside it is inside in both. \param lower, upper null: there is no block
+Joint jointBetween(const CellNeighbors& neighbors, const std::vector<char>* lower,
+                   const std::vector<char>* upper) {
+  const std::vector<char> none(neighbors.size(), 0);
+  const std::vector<char>& below = lower != nullptr ? *lower : none;
+  const std::vector<char>& above = upper != nullptr ? *upper : none;
+  std::vector<signed char> change(neighbors.size());
   for (std::size_t c = 0; c < change.size(); ++c) {
-    change[c] =
-        (lower != nullptr ? int{(*lower)[c]} : 0) - (upper != nullptr ? int{(*upper)[c]} : 0);
+    change[c] = static_cast<signed char>(below[c] - above[c]);
   }
-  UnionFind<> parts = partsOf(plan, change);
-  std::size_t count = 0;
-  for (std::size_t c = 0; c < change.size(); ++c) count += change[c] != 0 && parts.find(c) == c;
-  return count;
-}
-
-std::size_t countFloating(const LineArrangement& plan, const std::vector<char>& lower,
-                          const std::vector<char>& upper) {
-  UnionFind<> parts = partsOf(plan, {upper.begin(), upper.end()});
-  std::vector<char> rests(upper.size(), 0);
-  for (std::size_t c = 0; c < upper.size(); ++c) {
-    if (upper[c] != 0 && lower[c] != 0) rests[parts.find(c)] = 1;
+  Joint joint;
+  std::vector<std::size_t> front;
+  for (std::size_t c = 0; c < change.size(); ++c) {
+    if (change[c] == 0) continue;
+    const signed char way = std::exchange(change[c], {});
+    bool rests = way > 0;
+    front = {c};
+    while (!front.empty()) {
+      const std::size_t cell = front.back();
+      front.pop_back();
+      neighbors.forEach(cell, [&](std::size_t next) {
+        rests = rests || (below[next] != 0 && above[next] != 0);
+        if (change[next] != way) return;
+        change[next] = 0;
+        front.push_back(next);
+      });
+    }
+    ++joint.caps;
+    if (!rests) ++joint.floating;
   }
-  std::size_t count = 0;
-  for (std::size_t c = 0; c < upper.size(); ++c) {
-    count += upper[c] != 0 && parts.find(c) == c && rests[c] == 0;
-  }
-  return count;
+  return joint;
 }
 
 }  // namespace
@@ -100,30 +101,31 @@ std::size_t countWalls(const std::vector<const std::vector<OutlineRun>*>& blocks
 }
 
 std::size_t countFaces(const LineArrangement& plan, const std::vector<BlockOutline>& blocks) {
+  const CellNeighbors neighbors(plan);
   std::vector<const std::vector<OutlineRun>*> runs;
   for (const BlockOutline& block : blocks) runs.push_back(block.runs);
   std::size_t faces = countWalls(runs);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    faces += countCaps(plan, b > 0 ? blocks[b - 1].inside : nullptr, blocks[b].inside);
+    faces += jointBetween(neighbors, b > 0 ? blocks[b - 1].inside : nullptr, blocks[b].inside).caps;
   }
-  if (!blocks.empty()) faces += countCaps(plan, blocks.back().inside, nullptr);
+  if (!blocks.empty()) faces += jointBetween(neighbors, blocks.back().inside, nullptr).caps;
   return faces;
 }
 
 std::size_t countFloating(const LineArrangement& plan, const std::vector<BlockOutline>& blocks) {
+  const CellNeighbors neighbors(plan);
   std::size_t floating = 0;
   for (std::size_t b = 1; b < blocks.size(); ++b) {
-    floating += countFloating(plan, *blocks[b - 1].inside, *blocks[b].inside);
+    floating += jointBetween(neighbors, blocks[b - 1].inside, blocks[b].inside).floating;
   }
   return floating;
 }
 
-double jointComplexity(const LineArrangement& plan, const std::vector<char>* lower,
+double jointComplexity(const CellNeighbors& neighbors, const std::vector<char>* lower,
                        const std::vector<char>* upper) {
-  const bool between = lower != nullptr && upper != nullptr;
-  const std::size_t floating = between ? countFloating(plan, *lower, *upper) : 0;
-  return static_cast<double>(countCaps(plan, lower, upper)) +
-         kFloatingFaces * static_cast<double>(floating);
+  const Joint joint = jointBetween(neighbors, lower, upper);
+  const std::size_t floating = lower != nullptr ? joint.floating : 0;  // or it is on the ground
+  return static_cast<double>(joint.caps) + kFloatingFaces * static_cast<double>(floating);
 }
 
 double complexityOf(const LineArrangement& plan, const std::vector<BlockOutline>& blocks) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <storey/segmentation/detail/outline_faces.h>
+#include <storey/segmentation/detail/outline_cuts.h>
 #include <storey/segmentation/detail/outline_pruning.h>
 
 #include <algorithm>
@@ -16,28 +16,31 @@ namespace {
 constexpr double kTriedUpTo = 3.0;   // costs: what has more to show than this stays
 constexpr double kLeastGain = 1e-9;  // of the cost, against endless exchanges
 
-// The outline of a block, and the cut that found it.
-struct Outline {
-  LabelCut cut;
-  std::vector<char> inside;
-  double energy = 0.0;
-  std::vector<OutlineRun> runs;
-};
+EdgeRange rangeOf(const OutlineRun& run) { return {run.first, run.last}; }
+
+// All edges of a line, which has some.
+EdgeRange edgesOf(const LineArrangement& plan, std::size_t line) {
+  const auto firstFrom = [&](std::size_t l) {
+    const auto found = std::partition_point(
+        plan.edges.begin(), plan.edges.end(),
+        [&](const PlanEdge& edge) { return static_cast<std::size_t>(edge.line) < l; });
+    return static_cast<std::size_t>(found - plan.edges.begin());
+  };
+  return {firstFrom(line), firstFrom(line + 1) - 1};
+}
 
 class Pruning {
  public:
   Pruning(const LineArrangement& plan, double gap, double cost, bool may_vanish,
-          std::vector<CellBlock>& blocks)
-      : plan_(plan), gap_(gap), cost_(cost), may_vanish_(may_vanish), blocks_(blocks) {
-    for (const CellBlock& block : blocks) {
-      Outline outline{LabelCut(plan, block.terms, gap), block.inside, block.energy, {}};
-      outline.cut.solve();  // once; trials go on from there
-      outline.runs = runsOf(plan, block.terms, block.inside);
-      outlines_.push_back(std::move(outline));
-    }
+          unsigned int threads, std::vector<CellBlock>& blocks)
+      : plan_(plan),
+        neighbors_(plan),
+        cost_(cost),
+        may_vanish_(may_vanish),
+        outlines_(plan, gap, threads, blocks) {
     tried_.resize(blocks.size());
     measureJoints();
-    objective_ = objectiveOf(stackOf({}), joints_);
+    objective_ = objectiveOf(stack(), joints_);
   }
 
   void run() {
@@ -46,39 +49,28 @@ class Pruning {
     while (mergeBlocks()) {
     }
     dropLines();
-    for (std::size_t b = 0; b < outlines_.size(); ++b) {
-      blocks_[b].inside = std::move(outlines_[b].inside);
-      blocks_[b].energy = outlines_[b].energy;
-    }
+    outlines_.writeBack();
   }
 
  private:
-  using Trials = std::map<std::size_t, Outline>;  // in place of the outlines of these blocks
-  using Stack = std::vector<const Outline*>;
+  using Trial = std::map<std::size_t, EdgeRange>;  // what blocks are to do without
+  using Stack = std::vector<const BlockLabels*>;
 
-  void cutAgain(const CellTerms& terms, Outline& outline) const {
-    outline.inside = outline.cut.solve();
-    outline.energy = energyOf(plan_, terms, gap_, outline.inside);
-    outline.runs = runsOf(plan_, terms, outline.inside);
-  }
-
-  Stack stackOf(const Trials& trials) const {
+  Stack stack() const {
     Stack stack;
-    for (const Outline& outline : outlines_) stack.push_back(&outline);
-    for (const auto& [b, outline] : trials) stack[b] = &outline;
+    for (std::size_t b = 0; b < outlines_.size(); ++b) stack.push_back(&outlines_[b]);
     return stack;
   }
 
   // What the joint below a block of the stack costs; above the last block there is one more.
   double jointOf(const Stack& stack, std::size_t b) const {
-    return jointComplexity(plan_, b > 0 ? &stack[b - 1]->inside : nullptr,
+    return jointComplexity(neighbors_, b > 0 ? &stack[b - 1]->inside : nullptr,
                            b < stack.size() ? &stack[b]->inside : nullptr);
   }
 
   void measureJoints() {
-    const Stack stack = stackOf({});
     joints_.clear();
-    for (std::size_t b = 0; b <= stack.size(); ++b) joints_.push_back(jointOf(stack, b));
+    for (std::size_t b = 0; b <= outlines_.size(); ++b) joints_.push_back(jointOf(stack(), b));
   }
 
   // F. A line that was guessed costs nothing to describe: it follows from the ends of others.
@@ -86,10 +78,10 @@ class Pruning {
     std::vector<const std::vector<OutlineRun>*> runs;
     std::vector<char> used(plan_.lines.size(), 0);
     double energy = 0.0;
-    for (const Outline* outline : stack) {
-      energy += outline->energy;
-      runs.push_back(&outline->runs);
-      for (const OutlineRun& run : outline->runs) {
+    for (const BlockLabels* labels : stack) {
+      energy += labels->energy;
+      runs.push_back(&labels->runs);
+      for (const OutlineRun& run : labels->runs) {
         const auto line = static_cast<std::size_t>(plan_.edges[run.first].line);
         used[line] = plan_.lines[line].hypothetical ? 0 : 1;
       }
@@ -103,17 +95,18 @@ class Pruning {
     return energy + cost_ * (complexity + static_cast<double>(lines));
   }
 
-  bool acceptIfLower(Trials trials) {
-    const Stack stack = stackOf(trials);
+  bool acceptIfLower(const Trial& trial) {
+    Stack changed = stack();
+    for (const auto& [b, edges] : trial) changed[b] = &outlines_.without(edges, b);
     std::vector<double> joints = joints_;
-    for (const auto& trial : trials) {
-      for (const std::size_t b : {trial.first, trial.first + 1}) joints[b] = jointOf(stack, b);
+    for (const auto& [block, edges] : trial) {
+      for (const std::size_t b : {block, block + 1}) joints[b] = jointOf(changed, b);
     }
-    const double objective = objectiveOf(stack, joints);
+    const double objective = objectiveOf(changed, joints);
     if (objective >= objective_ - kLeastGain * cost_) return false;
     objective_ = objective;
     joints_ = std::move(joints);
-    for (auto& [b, outline] : trials) outlines_[b] = std::move(outline);
+    for (const auto& [b, edges] : trial) outlines_.take(edges, b);
     return true;
   }
 
@@ -123,31 +116,50 @@ class Pruning {
   }
 
   bool dropRun(std::size_t b) {
-    std::vector<OutlineRun> runs = outlines_[b].runs;
-    std::stable_sort(runs.begin(), runs.end(), [](const OutlineRun& one, const OutlineRun& other) {
-      return one.seen < other.seen;
-    });
-    for (const OutlineRun& run : runs) {
-      if (run.seen > kTriedUpTo * cost_) return false;
-      if (!tried_[b].emplace(run.first, run.last).second) continue;
-      if (acceptIfLower({{b, cutWithout(b, run)}})) return true;
-      Trials face = cutWithoutFace(b, run);
-      if (face.size() > 1 && acceptIfLower(std::move(face))) return true;
+    const std::vector<OutlineRun> runs = untriedRuns(b);
+    std::size_t cut = 0;
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      if (r == cut) {  // the longer nothing was taken away, the further ahead
+        cut = std::min(runs.size(), 2 * cut + 1);
+        cutAhead(b, runs.begin() + static_cast<std::ptrdiff_t>(r),
+                 runs.begin() + static_cast<std::ptrdiff_t>(cut));
+      }
+      const EdgeRange edges = rangeOf(runs[r]);
+      tried_[b].insert(edges);
+      if (acceptIfLower({{b, edges}})) return true;
+      const Trial face = faceOf(b, runs[r]);
+      if (face.size() > 1 && acceptIfLower(face)) return true;
     }
     return false;
   }
 
-  Outline cutWithout(std::size_t b, const OutlineRun& run) const {
-    Outline trial = outlines_[b];
-    for (std::size_t e = run.first; e <= run.last; ++e) trial.cut.tie(e);
-    cutAgain(blocks_[b].terms, trial);
-    return trial;
+  // Those with the least to show first.
+  std::vector<OutlineRun> untriedRuns(std::size_t b) const {
+    std::vector<OutlineRun> runs;
+    for (const OutlineRun& run : outlines_[b].runs) {
+      if (run.seen <= kTriedUpTo * cost_ && tried_[b].count(rangeOf(run)) == 0) runs.push_back(run);
+    }
+    std::stable_sort(runs.begin(), runs.end(), [](const OutlineRun& one, const OutlineRun& other) {
+      return one.seen < other.seen;
+    });
+    return runs;
   }
 
-  // Without the run and those that continue it in the blocks above and below.
-  Trials cutWithoutFace(std::size_t b, const OutlineRun& run) const {
-    Trials trials;
-    trials.emplace(b, cutWithout(b, run));
+  // Cuts what trials of some runs will ask for.
+  template <typename Iterator>
+  void cutAhead(std::size_t b, Iterator from, Iterator to) {
+    if (!outlines_.cutsAhead()) return;
+    std::set<std::pair<std::size_t, EdgeRange>> asked;
+    for (auto run = from; run != to; ++run) {
+      const Trial face = faceOf(b, *run);
+      asked.insert(face.begin(), face.end());
+    }
+    outlines_.cutAhead(asked);
+  }
+
+  // The run and those that continue it in the blocks above and below.
+  Trial faceOf(std::size_t b, const OutlineRun& run) const {
+    Trial face{{b, rangeOf(run)}};
     for (const int step : {1, -1}) {
       OutlineRun last = run;
       for (std::size_t next = b + static_cast<std::size_t>(step); next < outlines_.size();
@@ -158,78 +170,54 @@ class Pruning {
         });
         if (same == runs.end()) break;
         last = *same;
-        trials.emplace(next, cutWithout(next, last));
+        face.emplace(next, rangeOf(last));
       }
     }
-    return trials;
-  }
-
-  // The block and the one above it as one; what is tied in both stays so.
-  Outline cutMerged(std::size_t b, const CellTerms& terms) const {
-    Outline merged{LabelCut(plan_, terms, gap_), {}, 0.0, {}};
-    for (std::size_t e = 0; e < plan_.edges.size(); ++e) {
-      if (outlines_[b].cut.tied(e) && outlines_[b + 1].cut.tied(e)) merged.cut.tie(e);
-    }
-    cutAgain(terms, merged);
-    return merged;
+    return face;
   }
 
   // F with one outline in place of that of a block and the one above it.
-  double objectiveOfMerge(std::size_t b, const Outline& merged) const {
-    Stack stack = stackOf({});
+  double objectiveOfMerge(std::size_t b, const BlockLabels& merged) const {
+    Stack changed = stack();
     std::vector<double> joints = joints_;
-    stack[b] = &merged;
-    stack.erase(stack.begin() + static_cast<std::ptrdiff_t>(b) + 1);
+    changed[b] = &merged;
+    changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(b) + 1);
     joints.erase(joints.begin() + static_cast<std::ptrdiff_t>(b) + 1);
-    for (const std::size_t joint : {b, b + 1}) joints[joint] = jointOf(stack, joint);
-    return objectiveOf(stack, joints);
+    for (const std::size_t joint : {b, b + 1}) joints[joint] = jointOf(changed, joint);
+    return objectiveOf(changed, joints);
   }
 
   // The merge of two neighbours with the least F, if that is no higher: of equals one block is the
   // simpler description.
   bool mergeBlocks() {
+    outlines_.cutAllMerged();
     double best = objective_ + kLeastGain * cost_;
     std::size_t lower = SIZE_MAX;
-    Trials best_outline;
     for (std::size_t b = 0; b + 1 < outlines_.size(); ++b) {
-      Outline merged = cutMerged(b, termsOfMerge(b));
-      const double objective = objectiveOfMerge(b, merged);
+      const double objective = objectiveOfMerge(b, outlines_.merged(b));
       if (objective >= best) continue;
       best = objective;
       lower = b;
-      best_outline.clear();
-      best_outline.emplace(b, std::move(merged));
     }
     if (lower == SIZE_MAX) return false;
     objective_ = best;
-    takeMerge(lower, std::move(best_outline.at(lower)));
+    takeMerge(lower);
     dropRuns(lower);
     return true;
   }
 
-  CellTerms termsOfMerge(std::size_t b) const {
-    CellTerms terms = blocks_[b].terms;
-    terms.add(blocks_[b + 1].terms);
-    return terms;
-  }
-
-  void takeMerge(std::size_t b, Outline merged) {
-    const auto upper = static_cast<std::ptrdiff_t>(b) + 1;
-    blocks_[b].terms = termsOfMerge(b);
-    blocks_[b].last_bin = blocks_[b + 1].last_bin;
-    outlines_[b] = std::move(merged);
+  void takeMerge(std::size_t b) {
+    outlines_.takeMerge(b);
     tried_[b].clear();
-    blocks_.erase(blocks_.begin() + upper);
-    outlines_.erase(outlines_.begin() + upper);
-    tried_.erase(tried_.begin() + upper);
+    tried_.erase(tried_.begin() + static_cast<std::ptrdiff_t>(b) + 1);
     measureJoints();
   }
 
   // Area that each line shows in all blocks; negative: it bounds nothing.
   std::vector<double> seenByLine() const {
     std::vector<double> seen(plan_.lines.size(), -1.0);
-    for (const Outline& outline : outlines_) {
-      for (const OutlineRun& run : outline.runs) {
+    for (const BlockLabels* labels : stack()) {
+      for (const OutlineRun& run : labels->runs) {
         double& sum = seen[static_cast<std::size_t>(plan_.edges[run.first].line)];
         sum = std::max(0.0, sum) + run.seen;
       }
@@ -249,40 +237,34 @@ class Pruning {
   }
 
   void dropLine(std::size_t line) {
-    Trials trials;
+    const EdgeRange edges = edgesOf(plan_, line);
+    Trial trial;
     for (std::size_t b = 0; b < outlines_.size(); ++b) {
       const std::vector<OutlineRun>& runs = outlines_[b].runs;
       const bool used = std::any_of(runs.begin(), runs.end(), [&](const OutlineRun& run) {
-        return static_cast<std::size_t>(plan_.edges[run.first].line) == line;
+        return run.first >= edges.first && run.first <= edges.last;
       });
-      if (!used) continue;
-      Outline trial = outlines_[b];
-      for (std::size_t e = 0; e < plan_.edges.size(); ++e) {
-        if (static_cast<std::size_t>(plan_.edges[e].line) == line) trial.cut.tie(e);
-      }
-      cutAgain(blocks_[b].terms, trial);
-      trials.emplace(b, std::move(trial));
+      if (used) trial.emplace(b, edges);
     }
-    if (!trials.empty()) acceptIfLower(std::move(trials));
+    if (!trial.empty()) acceptIfLower(trial);
   }
 
   const LineArrangement& plan_;
-  double gap_;
+  CellNeighbors neighbors_;
   double cost_;
   bool may_vanish_;
-  std::vector<CellBlock>& blocks_;
-  std::vector<Outline> outlines_;                                     // of each block
-  std::vector<std::set<std::pair<std::size_t, std::size_t>>> tried_;  // runs that earn their cost
-  std::vector<double> joints_;  // below each block, and above the last
+  OutlineCuts outlines_;                    // of each block
+  std::vector<std::set<EdgeRange>> tried_;  // runs that earn their cost
+  std::vector<double> joints_;              // below each block, and above the last
   double objective_ = 0.0;
 };
 
 }  // namespace
 
 void pruneOutlines(const LineArrangement& plan, double gap, double cost,
-                   std::vector<CellBlock>& blocks, bool may_vanish) {
+                   std::vector<CellBlock>& blocks, bool may_vanish, unsigned int threads) {
   if (!(cost > 0.0) || blocks.empty()) return;
-  Pruning(plan, gap, cost, may_vanish, blocks).run();
+  Pruning(plan, gap, cost, may_vanish, threads, blocks).run();
   for (CellBlock& block : blocks) block.measureCoverage();
 }
 

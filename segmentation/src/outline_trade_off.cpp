@@ -60,7 +60,8 @@ bool isWithin(const OutlineTradeOff& point, const SimplicityLimits& limits) {
 
 std::vector<OutlineTradeOff> simplifyOutlines(const LineArrangement& plan, double gap,
                                               double face_cost, const SimplicityLimits& limits,
-                                              std::vector<CellBlock>& blocks) {
+                                              std::vector<CellBlock>& blocks,
+                                              unsigned int threads) {
   std::vector<OutlineTradeOff> front = {describe(plan, face_cost, blocks)};
   bool within = isWithin(front.back(), limits);
   std::vector<CellBlock> current = blocks;
@@ -70,7 +71,7 @@ std::vector<OutlineTradeOff> simplifyOutlines(const LineArrangement& plan, doubl
     face_cost *= kCostStep;
     // Step by step a stack may not come down to one block.
     if (face_cost >= decisive) current = {joined(plan, gap, current)};
-    pruneOutlines(plan, gap, face_cost, current, false);
+    pruneOutlines(plan, gap, face_cost, current, false, threads);
     const OutlineTradeOff point = describe(plan, face_cost, current);
     if (point.faces == 0) break;  // nothing holds at all heights
     const bool simpler = point.faces < front.back().faces;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/short_walls.h>
-#include <storey/segmentation/detail/wall_density.h>
 #include <storey/segmentation/detail/wall_residue.h>
 #include <storey/segmentation/detail/wall_support.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 
 namespace storey::detail {
@@ -55,51 +56,64 @@ double wallDensityAt(const DensePlace& place, const std::vector<WallPoint>& poin
   return count > kDense * there * (high - low) * (place.s_max - place.s_min) ? there : 0.0;
 }
 
-// The line through a place, and its support among the points that are left.
-FoundLine fitAt(const DensePlace& place, const std::vector<WallPoint>& points,
-                const PointBlocks& blocks, const WallScale& scale, const HeightDensity& density,
-                const WallLineOptions& options, const std::vector<char>& left) {
+// What a place was fitted to, and the line found there.
+struct Fit {
+  std::vector<int> candidates;
   FoundLine found;
-  found.line.normal = place.normal;
-  found.line.offset = place.offset;
+};
+
+// The line through a place, and its support among the points that are left.
+Fit fitAt(const DensePlace& place, const std::vector<WallPoint>& points, const PointBlocks& blocks,
+          const WallScale& scale, const HeightDensity& density, const WallLineOptions& options,
+          const std::vector<char>& left) {
+  Fit fit;
+  WallLine& line = fit.found.line;
+  line.normal = place.normal;
+  line.offset = place.offset;
   const double reach = std::sqrt(options.min_area);
-  std::vector<int> candidates = candidatesFor(points, blocks, left, found.line, scale.noise);
-  const auto beyond = [&](int i) {
-    const double s = found.line.along(points[static_cast<std::size_t>(i)].position);
-    return s < place.s_min - reach || s > place.s_max + reach;
-  };
-  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), beyond), candidates.end());
+  fit.candidates = candidatesFor(points, blocks, left, line, scale.noise,
+                                 {place.s_min - reach, place.s_max + reach});
   WallScale local = scale;
-  local.density = wallDensityAt(place, points, candidates, density, scale.noise);
-  if (!(local.density > 0.0)) return found;
+  local.density = wallDensityAt(place, points, fit.candidates, density, scale.noise);
+  if (!(local.density > 0.0)) return fit;
   SupportOptions locked;
   locked.fit_direction = false;
   locked.by_normals = true;
   locked.steps = options.steps;
-  found.support = fitToSupport(points, candidates, local, locked, found.line);
-  return found;
+  fit.found.support = fitToSupport(points, fit.candidates, local, locked, line);
+  return fit;
 }
 
 }  // namespace
 
 void extractShortWalls(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                       const WallScale& scale, const WallLineOptions& options,
-                       const std::vector<double>& angles, std::vector<char>& free,
-                       std::vector<FoundLine>& lines) {
-  const HeightDensity density(points, scale);
+                       const WallScale& scale, const HeightDensity& density,
+                       const WallLineOptions& options, const std::vector<double>& angles,
+                       std::vector<char>& free, std::vector<FoundLine>& lines) {
   std::vector<char> left = farFromLines(points, free, lines, scale.noise);
   const auto fit = [&](const DensePlace& place) {
     return fitAt(place, points, blocks, scale, density, options, left);
   };
+  const std::vector<DensePlace> places =
+      findDensePlaces(points, left, angles, scale.noise, options.threads);
+  std::vector<Fit> fits(places.size());
+#pragma omp parallel for num_threads(threadsFor(options.threads)) schedule(dynamic, 16)
+  for (std::ptrdiff_t p = 0; p < static_cast<std::ptrdiff_t>(places.size()); ++p) {
+    fits[static_cast<std::size_t>(p)] = fit(places[static_cast<std::size_t>(p)]);
+  }
   // Of places in directions near each other, that with most support is right.
-  std::vector<std::pair<std::size_t, DensePlace>> order;
-  for (const DensePlace& place : findDensePlaces(points, left, angles, scale.noise))
-    order.emplace_back(fit(place).support.size(), place);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-  for (const auto& [support, place] : order) {
-    if (support == 0 || lines.size() >= kMaxLines) return;
-    FoundLine found = fit(place);
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return fits[a].found.support.size() > fits[b].found.support.size();
+  });
+  for (const std::size_t p : order) {
+    if (fits[p].found.support.empty() || lines.size() >= kMaxLines) return;
+    const std::vector<int>& candidates = fits[p].candidates;
+    const bool taken = std::any_of(candidates.begin(), candidates.end(),
+                                   [&](int i) { return left[static_cast<std::size_t>(i)] == 0; });
+    if (taken) fits[p] = fit(places[p]);
+    FoundLine& found = fits[p].found;
     if (found.support.empty() || found.line.support_area < options.min_area) continue;
     for (const int i : found.support) {
       left[static_cast<std::size_t>(i)] = 0;

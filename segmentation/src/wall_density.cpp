@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/wall_density.h>
 
 #include <algorithm>
@@ -33,6 +34,25 @@ class SortedPoints {
 
   const std::vector<double>& heights() const { return heights_; }
 
+  // The median density around some points of a range, in the first radius with enough points.
+  double densityAround(std::size_t begin, std::size_t end, const WallScale& scale,
+                       double most_radius) const {
+    const std::size_t step = (end - begin) / kSamples + 1;
+    double radius = std::max(kLeastRadius * scale.noise, std::sqrt(1.0 / scale.density));
+    while (true) {
+      std::vector<double> counts;
+      for (std::size_t i = begin + step / 2; i < end; i += step) {
+        counts.push_back(countAround(i, radius));
+      }
+      const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
+      std::nth_element(counts.begin(), middle, counts.end());
+      if (*middle >= kWanted || radius > most_radius)
+        return std::max(*middle, 1.0) / (M_PI * radius * radius);
+      radius *= kRadiusStep;
+    }
+  }
+
+ private:
   // Points of the same wall about that one, itself left out.
   double countAround(std::size_t center, double radius) const {
     const double z = heights_[center];
@@ -50,7 +70,6 @@ class SortedPoints {
     return count;
   }
 
- private:
   using Place = std::pair<double, std::size_t>;
 
   // By height and number: into slices first, which leaves little to sort.
@@ -86,7 +105,8 @@ class SortedPoints {
 
 }  // namespace
 
-HeightDensity::HeightDensity(const std::vector<WallPoint>& points, const WallScale& scale)
+HeightDensity::HeightDensity(const std::vector<WallPoint>& points, const WallScale& scale,
+                             unsigned int threads)
     : densities_(kZones, scale.density) {
   if (points.empty()) return;
   const SortedPoints sorted(points);
@@ -94,23 +114,17 @@ HeightDensity::HeightDensity(const std::vector<WallPoint>& points, const WallSca
   low_ = heights.front();
   const double height = heights.back() - low_;
   step_ = std::max(height / kZones, std::numeric_limits<double>::min());
-  std::size_t end = 0;
-  for (std::size_t k = 0; k < kZones; ++k) {
-    const std::size_t begin = end;
-    while (end < heights.size() && zoneOf(heights[end]) == k) ++end;
-    const std::size_t step = (end - begin) / kSamples + 1;
-    double radius = std::max(kLeastRadius * scale.noise, std::sqrt(1.0 / scale.density));
-    for (; begin < end; radius *= kRadiusStep) {
-      std::vector<double> counts;
-      for (std::size_t i = begin + step / 2; i < end; i += step) {
-        counts.push_back(sorted.countAround(i, radius));
-      }
-      if (counts.empty()) break;
-      const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
-      std::nth_element(counts.begin(), middle, counts.end());
-      densities_[k] = std::max(*middle, 1.0) / (M_PI * radius * radius);
-      if (*middle >= kWanted || radius > kMostRadius * height) break;
-    }
+#pragma omp parallel for num_threads(threadsFor(threads)) schedule(dynamic, 1)
+  for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(kZones); ++k) {
+    const auto zone = static_cast<std::size_t>(k);
+    const auto from = std::partition_point(heights.begin(), heights.end(),
+                                           [&](double z) { return zoneOf(z) < zone; });
+    const auto to =
+        std::partition_point(from, heights.end(), [&](double z) { return zoneOf(z) <= zone; });
+    const auto begin = static_cast<std::size_t>(from - heights.begin());
+    const auto end = static_cast<std::size_t>(to - heights.begin());
+    if (begin == end) continue;
+    densities_[zone] = sorted.densityAround(begin, end, scale, kMostRadius * height);
   }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/point_blocks.h>
 #include <storey/segmentation/detail/wall_density.h>
 #include <storey/segmentation/detail/wall_ends.h>
@@ -52,8 +53,8 @@ std::vector<std::pair<std::size_t, std::size_t>> runsOf(const Places& places, do
 class EndFinder {
  public:
   EndFinder(const std::vector<WallLine>& walls, const std::vector<WallPoint>& points,
-            const WallScale& scale)
-      : walls_(walls), scale_(scale), density_(points, scale) {
+            const WallScale& scale, unsigned int threads)
+      : walls_(walls), scale_(scale), threads_(threads), density_(points, scale, threads) {
     double high = -std::numeric_limits<double>::infinity();
     low_ = -high;
     for (const WallPoint& p : points) {
@@ -63,19 +64,27 @@ class EndFinder {
     band_ = kBand * scale.noise;
     num_bands_ = static_cast<std::size_t>((high - low_) / band_) + 1;
     places_.resize(walls.size() * num_bands_);
-    const PointBlocks blocks(points);
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      const std::vector<std::size_t> near = wallsNear(blocks, b);
-      for (std::size_t i = blocks.begin(b); i < blocks.end(b); ++i) addPoint(points[i], near);
+    const std::vector<std::size_t> wall_of = wallsOf(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::size_t wall = wall_of[i];
+      if (wall == walls_.size()) continue;
+      const auto band = static_cast<std::size_t>((points[i].z - low_) / band_);
+      places_[wall * num_bands_ + band].push_back(walls_[wall].along(points[i].position));
     }
   }
 
   std::vector<WallEnd> find() {
-    std::vector<WallEnd> ends;
-    for (std::size_t w = 0; w < walls_.size(); ++w) {
+    std::vector<std::vector<WallEnd>> of_walls(walls_.size());
+#pragma omp parallel for num_threads(threadsFor(threads_)) schedule(dynamic, 1)
+    for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(of_walls.size()); ++i) {
+      const auto w = static_cast<std::size_t>(i);
       std::vector<BandEnd> of_bands;
       for (std::size_t b = 0; b < num_bands_; ++b) addBandEnds(w, b, of_bands);
-      joinBands(walls_[w], of_bands, ends);
+      joinBands(walls_[w], std::move(of_bands), of_walls[w]);
+    }
+    std::vector<WallEnd> ends;
+    for (const std::vector<WallEnd>& of_wall : of_walls) {
+      ends.insert(ends.end(), of_wall.begin(), of_wall.end());
     }
     return ends;
   }
@@ -91,7 +100,22 @@ class EndFinder {
     return near;
   }
 
-  void addPoint(const WallPoint& p, const std::vector<std::size_t>& near) {
+  // The nearest wall that each point confirms; the number of walls if there is none.
+  std::vector<std::size_t> wallsOf(const std::vector<WallPoint>& points) const {
+    const PointBlocks blocks(points);
+    std::vector<std::size_t> wall_of(points.size());
+#pragma omp parallel for num_threads(threadsFor(threads_)) schedule(dynamic, 64)
+    for (std::ptrdiff_t b = 0; b < static_cast<std::ptrdiff_t>(blocks.size()); ++b) {
+      const auto block = static_cast<std::size_t>(b);
+      const std::vector<std::size_t> near = wallsNear(blocks, block);
+      for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) {
+        wall_of[i] = wallOf(points[i], near);
+      }
+    }
+    return wall_of;
+  }
+
+  std::size_t wallOf(const WallPoint& p, const std::vector<std::size_t>& near) const {
     double nearest = kGate * scale_.noise;
     std::size_t wall = walls_.size();
     for (const std::size_t w : near) {
@@ -100,9 +124,7 @@ class EndFinder {
       nearest = d;
       wall = w;
     }
-    if (wall == walls_.size()) return;
-    const auto band = static_cast<std::size_t>((p.z - low_) / band_);
-    places_[wall * num_bands_ + band].push_back(walls_[wall].along(p.position));
+    return wall;
   }
 
   void addBandEnds(std::size_t wall, std::size_t band, std::vector<BandEnd>& ends) {
@@ -192,6 +214,7 @@ class EndFinder {
 
   const std::vector<WallLine>& walls_;
   const WallScale& scale_;
+  unsigned int threads_;
   HeightDensity density_;
   double low_ = 0.0;
   double band_ = 1.0;
@@ -202,9 +225,10 @@ class EndFinder {
 }  // namespace
 
 std::vector<WallEnd> findWallEnds(const std::vector<WallLine>& walls,
-                                  const std::vector<WallPoint>& points, const WallScale& scale) {
+                                  const std::vector<WallPoint>& points, const WallScale& scale,
+                                  unsigned int threads) {
   if (walls.empty() || points.empty()) return {};
-  return EndFinder(walls, points, scale).find();
+  return EndFinder(walls, points, scale, threads).find();
 }
 
 }  // namespace storey::detail

@@ -26,6 +26,23 @@ struct EdgeTiles {
   std::vector<double> width;
   std::size_t num_bins = 0;
   std::vector<float> difference;  // tile by tile and bin: points ahead less points behind
+  std::vector<char> occupied;     // tile by tile: whether there are points
+
+  // Calls `work(edge, tile)` for the tiles with points.
+  template <typename Work>
+  void forEachOccupied(const Work& work) const {
+    for (std::size_t e = 0; e < width.size(); ++e) {
+      for (std::size_t t = first[e]; t < first[e + 1]; ++t) {
+        if (occupied[t] != 0) work(e, t);
+      }
+    }
+  }
+
+  void note(std::size_t edge, double s, std::size_t bin, float amount) {
+    const std::size_t tile = tileOf(edge, s);
+    difference[tile * num_bins + bin] += amount;
+    occupied[tile] = 1;
+  }
 
   std::size_t tileOf(std::size_t edge, double s) const {
     const std::size_t count = first[edge + 1] - first[edge];
@@ -44,30 +61,30 @@ EdgeTiles makeTiles(const LineArrangement& plan, double width, std::size_t num_b
     tiles.first.push_back(tiles.first.back() + static_cast<std::size_t>(count));
   }
   tiles.difference.assign(tiles.first.back() * num_bins, 0.0f);
+  tiles.occupied.assign(tiles.first.back(), 0);
   return tiles;
 }
 
 // Density of the points on the walls at each height: the median over the area that was seen around
 // it, so that it follows a density that falls with height or with the distance of a side from the
 // scanner. Where there are outliers only it is a small share of the building's.
-std::vector<double> densityByHeight(const EdgeTiles& tiles, double bin) {
+std::vector<double> densityByHeight(const EdgeTiles& tiles, double bin, unsigned int threads) {
   std::vector<double> densities(tiles.num_bins, 0.0);
-  std::vector<std::pair<double, double>> values;  // density, weight
-  for (std::size_t b = 0; b < tiles.num_bins; ++b) {
-    values.clear();
-    double total = 0.0;
+#pragma omp parallel for num_threads(threadsFor(threads)) schedule(dynamic, 8)
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(tiles.num_bins); ++i) {
+    const auto b = static_cast<std::size_t>(i);
     const std::size_t from = b > kDensityReach ? b - kDensityReach : 0;
     const std::size_t to = std::min(tiles.num_bins, b + kDensityReach + 1);
-    for (std::size_t e = 0; e < tiles.width.size(); ++e) {
-      for (std::size_t t = tiles.first[e]; t < tiles.first[e + 1]; ++t) {
-        double d = 0.0;
-        for (std::size_t k = from; k < to; ++k) d += tiles.difference[t * tiles.num_bins + k];
-        if (std::abs(d) < kSeenPoints) continue;
-        const double area = tiles.width[e] * bin * static_cast<double>(to - from);
-        values.emplace_back(std::abs(d) / area, area);
-        total += area;
-      }
-    }
+    std::vector<std::pair<double, double>> values;  // density, weight
+    double total = 0.0;
+    tiles.forEachOccupied([&](std::size_t e, std::size_t t) {
+      double d = 0.0;
+      for (std::size_t k = from; k < to; ++k) d += tiles.difference[t * tiles.num_bins + k];
+      if (std::abs(d) < kSeenPoints) return;
+      const double area = tiles.width[e] * bin * static_cast<double>(to - from);
+      values.emplace_back(std::abs(d) / area, area);
+      total += area;
+    });
     std::sort(values.begin(), values.end());
     double sum = 0.0;
     for (const auto& [density, weight] : values) {
@@ -90,33 +107,31 @@ std::size_t reachOf(double density, double width, double bin) {
 
 // A tile that holds few points where the wall is thin is as much seen as the tiles below it and
 // those above it, whichever is less: so the ends of a wall stay sharp.
-void measureSeen(const EdgeTiles& tiles, WallEvidence& evidence) {
+void measureSeen(const EdgeTiles& tiles, unsigned int threads, WallEvidence& evidence) {
   const std::size_t bins = evidence.num_bins;
   evidence.seen.assign(evidence.ahead.size(), 0.0f);
-  const std::vector<double> densities = densityByHeight(tiles, evidence.bin);
+  const std::vector<double> densities = densityByHeight(tiles, evidence.bin, threads);
   std::vector<double> below(bins + 1, 0.0);  // running sums of a tile's column
-  for (std::size_t e = 0; e < tiles.width.size(); ++e) {
+  tiles.forEachOccupied([&](std::size_t e, std::size_t t) {
     const double area = tiles.width[e] * evidence.bin;
-    for (std::size_t t = tiles.first[e]; t < tiles.first[e + 1]; ++t) {
-      for (std::size_t b = 0; b < bins; ++b) {
-        below[b + 1] = below[b] + tiles.difference[t * bins + b];
-      }
-      const auto shareOf = [&](std::size_t from, std::size_t to, double density) {
-        const double full = kFullDensity * density * area * static_cast<double>(to - from);
-        return std::clamp((below[to] - below[from]) / full, -1.0, 1.0);
-      };
-      for (std::size_t b = 0; b < bins; ++b) {
-        const double density = densities[b];
-        const std::size_t reach = reachOf(density, tiles.width[e], evidence.bin);
-        const double own = shareOf(b, b + 1, density);
-        const double down = shareOf(b > reach ? b - reach : 0, b + 1, density);
-        const double up = shareOf(b, std::min(bins, b + reach + 1), density);
-        const double around = std::abs(down) < std::abs(up) ? down : up;
-        const double share = down * up > 0.0 && std::abs(around) > std::abs(own) ? around : own;
-        evidence.seen[e * bins + b] += static_cast<float>(share * area);
-      }
+    for (std::size_t b = 0; b < bins; ++b) {
+      below[b + 1] = below[b] + tiles.difference[t * bins + b];
     }
-  }
+    const auto shareOf = [&](std::size_t from, std::size_t to, double density) {
+      const double full = kFullDensity * density * area * static_cast<double>(to - from);
+      return std::clamp((below[to] - below[from]) / full, -1.0, 1.0);
+    };
+    for (std::size_t b = 0; b < bins; ++b) {
+      const double density = densities[b];
+      const std::size_t reach = reachOf(density, tiles.width[e], evidence.bin);
+      const double own = shareOf(b, b + 1, density);
+      const double down = shareOf(b > reach ? b - reach : 0, b + 1, density);
+      const double up = shareOf(b, std::min(bins, b + reach + 1), density);
+      const double around = std::abs(down) < std::abs(up) ? down : up;
+      const double share = down * up > 0.0 && std::abs(around) > std::abs(own) ? around : own;
+      evidence.seen[e * bins + b] += static_cast<float>(share * area);
+    }
+  });
 }
 
 // Finds the edge that a point is at.
@@ -228,10 +243,10 @@ WallEvidence gatherEvidence(const LineArrangement& plan, const std::vector<WallP
     const bool agrees = line.normal.dot(p.normal) > 0.0;
     (agrees ? evidence.ahead : evidence.behind)[e * evidence.num_bins + bin] += 1.0f;
     const double s = line.tangent().dot(p.position) - plan.edges[e].s_min;
-    tiles.difference[tiles.tileOf(e, s) * evidence.num_bins + bin] += agrees ? 1.0f : -1.0f;
+    tiles.note(e, s, bin, agrees ? 1.0f : -1.0f);
   }
   if (saturated) {
-    measureSeen(tiles, evidence);
+    measureSeen(tiles, threads, evidence);
   } else {
     sumSeen(scale.density, evidence);
   }

@@ -148,9 +148,10 @@ class Hypotheses {
 
 std::vector<PlanLine> hypothesiseLines(const std::vector<WallLine>& walls,
                                        const std::vector<WallPoint>& points, const WallScale& scale,
-                                       double corner_gap) {
+                                       double corner_gap, unsigned int threads) {
   if (walls.empty() || points.empty()) return {};
-  return Hypotheses(walls, findWallEnds(walls, points, scale), scale.noise, corner_gap).make();
+  return Hypotheses(walls, findWallEnds(walls, points, scale, threads), scale.noise, corner_gap)
+      .make();
 }
 
 }  // namespace storey::detail

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/task_crew.h>
+#include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/found_line.h>
 #include <storey/segmentation/detail/point_blocks.h>
 #include <storey/segmentation/detail/short_walls.h>
@@ -27,18 +29,48 @@ constexpr double kThinnest = 1.0 / 16.0;     // thinner heights show clutter alo
 constexpr double kThinMiddle = 0.7;          // of an octave of densities
 constexpr double kThinFacade = 0.25;         // of the density of all, at most
 constexpr int kMaxFailures = 40;             // peaks without support in a row
+constexpr int kAhead = 4;                    // peaks tried at once, most, for each thread
 constexpr int kMaxLines = 400;               // cells grow with their square
 constexpr double kBeside = 0.25;             // points of the stronger line, of the weaker's support
 constexpr double kExplained = 2.5;           // noise deviations across a line
 constexpr double kLeftover = 0.8;            // of the support; a wall 2 deviations beside has 0.69
 
-// One greedy pass: strongest line, its support, take its points away, again.
+// The strongest windows, each without those before it, which are struck out.
+std::vector<VoteTable::Peak> strikePeaks(VoteTable& table, double least_votes, std::size_t most) {
+  std::vector<VoteTable::Peak> peaks;
+  while (peaks.size() < most) {
+    const VoteTable::Peak peak = table.strongest();
+    if (peak.votes < least_votes) break;
+    peaks.push_back(peak);
+    table.strikeOut(peak);
+  }
+  return peaks;
+}
+
+// The line at each of the peaks; without support where none is found.
+std::vector<FoundLine> fitPeaks(const std::vector<WallPoint>& points, const PointBlocks& blocks,
+                                const WallScale& scale, const SupportOptions& options,
+                                const std::vector<char>& free, const VoteTable& table,
+                                const std::vector<VoteTable::Peak>& peaks, TaskCrew& crew) {
+  std::vector<FoundLine> lines(peaks.size());
+  crew.run(peaks.size(), [&](std::size_t i) {
+    auto& [line, support] = lines[i];
+    line = table.lineAt(peaks[i]);
+    support = fitToSupport(points, candidatesFor(points, blocks, free, line, scale.noise), scale,
+                           options, line);
+    if (line.support_area < options.min_area) support.clear();
+  });
+  return lines;
+}
+
+// One greedy pass: strongest line, its support, take its points away, again. A peak without a line
+// changes nothing for the next one: the longer none was found, the more peaks are tried at once.
 void extractGreedily(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                     const WallScale& scale, const WallLineOptions& options, bool free_direction,
-                     std::vector<double> angles, std::vector<char>& free,
+                     const WallScale& scale, const WallLineOptions& options, TaskCrew& crew,
+                     bool free_direction, std::vector<double> angles, std::vector<char>& free,
                      std::vector<FoundLine>& lines) {
   VoteTable table(points, std::move(angles), scale.noise * (free_direction ? kFreeBin : kLockedBin),
-                  free_direction ? kFreeWindow : kLockedWindow, options.threads);
+                  free_direction ? kFreeWindow : kLockedWindow, crew);
   std::vector<int> voters;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (free[i] != 0) voters.push_back(static_cast<int>(i));
@@ -49,30 +81,32 @@ void extractGreedily(const std::vector<WallPoint>& points, const PointBlocks& bl
   support_options.min_area = options.min_area;
   support_options.steps = options.steps;
   const double least_votes = std::max(10.0, kMinVotes * options.min_area * scale.density);
+  const int most = crew.size() > 1 ? kAhead * crew.size() : 1;
   for (int failures = 0; failures < kMaxFailures && static_cast<int>(lines.size()) < kMaxLines;) {
-    const VoteTable::Peak peak = table.strongest();
-    if (peak.votes < least_votes) return;
-    WallLine line = table.lineAt(peak);
-    const std::vector<int> candidates = candidatesFor(points, blocks, free, line, scale.noise);
-    std::vector<int> support = fitToSupport(points, candidates, scale, support_options, line);
-    if (support.empty() || line.support_area < options.min_area) {
-      table.strikeOut(peak);
-      ++failures;
-      continue;
-    }
+    const int ahead = std::min({std::max(1, failures), most, kMaxFailures - failures});
+    const std::vector<VoteTable::Peak> peaks =
+        strikePeaks(table, least_votes, static_cast<std::size_t>(ahead));
+    if (peaks.empty()) return;
+    std::vector<FoundLine> found =
+        fitPeaks(points, blocks, scale, support_options, free, table, peaks, crew);
+    const auto first = std::find_if(found.begin(), found.end(),
+                                    [](const FoundLine& line) { return !line.support.empty(); });
+    failures += static_cast<int>(first - found.begin());
+    if (first == found.end()) continue;
     failures = 0;
-    for (const int i : support) free[static_cast<std::size_t>(i)] = 0;
-    table.vote(support, -1);
-    lines.push_back({std::move(line), std::move(support)});
+    table.takeBack(static_cast<std::size_t>(found.end() - first));
+    for (const int i : first->support) free[static_cast<std::size_t>(i)] = 0;
+    table.vote(first->support, -1);
+    lines.push_back(std::move(*first));
   }
 }
 
 // Walls at heights with much fewer points than the rest, octave by octave of their density.
 void extractThinParts(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                      const WallScale& scale, const WallLineOptions& options,
+                      const WallScale& scale, const HeightDensity& density,
+                      const WallLineOptions& options, TaskCrew& crew,
                       const std::vector<double>& locked, const std::vector<double>& all_around,
                       std::vector<char>& free, std::vector<FoundLine>& lines) {
-  const HeightDensity density(points, scale);
   const double least = kThinnest * scale.density;
   for (double most = kThin * scale.density; most > std::max(least, density.least()); most *= 0.5) {
     WallScale thin = scale;
@@ -84,8 +118,8 @@ void extractThinParts(const std::vector<WallPoint>& points, const PointBlocks& b
     }
     const std::vector<char> before = free_there;
     if (!locked.empty())
-      extractGreedily(points, blocks, thin, options, false, locked, free_there, lines);
-    extractGreedily(points, blocks, thin, options, true, all_around, free_there, lines);
+      extractGreedily(points, blocks, thin, options, crew, false, locked, free_there, lines);
+    extractGreedily(points, blocks, thin, options, crew, true, all_around, free_there, lines);
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (before[i] != free_there[i]) free[i] = 0;
     }
@@ -96,7 +130,7 @@ void extractThinParts(const std::vector<WallPoint>& points, const PointBlocks& b
 // or at a flat angle, octave by octave of their density. Clutter is as thin: a line needs a known
 // direction, and as many points as the least wall that was seen well.
 void extractThinFacades(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                        const WallScale& scale, const WallLineOptions& options,
+                        const WallScale& scale, const WallLineOptions& options, TaskCrew& crew,
                         const std::vector<double>& locked, std::vector<char>& free,
                         std::vector<FoundLine>& lines) {
   const double least = options.min_area * scale.density;
@@ -105,7 +139,7 @@ void extractThinFacades(const std::vector<WallPoint>& points, const PointBlocks&
     thin.density = kThinMiddle * most * scale.density;
     std::vector<char> free_there = free;
     std::vector<FoundLine> found;
-    extractGreedily(points, blocks, thin, options, false, locked, free_there, found);
+    extractGreedily(points, blocks, thin, options, crew, false, locked, free_there, found);
     for (FoundLine& facade : found) {
       if (static_cast<double>(facade.support.size()) < least) continue;
       for (const int i : facade.support) free[static_cast<std::size_t>(i)] = 0;
@@ -179,10 +213,11 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
   for (int a = 0; a < kFreeAngles; ++a)
     all_around[static_cast<std::size_t>(a)] = 2.0 * M_PI * a / kFreeAngles;
 
+  TaskCrew crew(threadsFor(options.threads));
   const PointBlocks blocks(points);
   std::vector<char> free(points.size(), 1);
   std::vector<FoundLine> free_lines;
-  extractGreedily(points, blocks, scale, options, true, all_around, free, free_lines);
+  extractGreedily(points, blocks, scale, options, crew, true, all_around, free, free_lines);
 
   std::vector<double> oriented;
   if (options.steps.locked_directions) {
@@ -194,15 +229,17 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
   std::fill(free.begin(), free.end(), 1);
   std::vector<FoundLine> lines;
   if (!oriented.empty()) {
-    extractGreedily(points, blocks, scale, options, false, oriented, free, lines);
+    extractGreedily(points, blocks, scale, options, crew, false, oriented, free, lines);
   }
-  extractGreedily(points, blocks, scale, options, true, all_around, free, lines);
+  extractGreedily(points, blocks, scale, options, crew, true, all_around, free, lines);
+  const HeightDensity density(points, scale, options.threads);
   if (options.steps.thin_heights)
-    extractThinParts(points, blocks, scale, options, oriented, all_around, free, lines);
+    extractThinParts(points, blocks, scale, density, options, crew, oriented, all_around, free,
+                     lines);
   if (options.steps.thin_facades && !oriented.empty())
-    extractThinFacades(points, blocks, scale, options, oriented, free, lines);
+    extractThinFacades(points, blocks, scale, options, crew, oriented, free, lines);
   if (options.steps.short_walls && !oriented.empty())
-    extractShortWalls(points, blocks, scale, options, oriented, free, lines);
+    extractShortWalls(points, blocks, scale, density, options, oriented, free, lines);
 
   std::stable_sort(lines.begin(), lines.end(), [](const FoundLine& a, const FoundLine& b) {
     return a.line.support > b.line.support;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/point_blocks.h>
 #include <storey/segmentation/detail/wall_residue.h>
 
@@ -33,14 +34,27 @@ class Search {
     }
   }
 
-  std::vector<DensePlace> run(const std::vector<double>& angles) {
+  std::vector<DensePlace> run(const std::vector<double>& angles, unsigned int threads) const {
+    std::vector<Findings> found(angles.size());
+#pragma omp parallel for num_threads(threadsFor(threads)) schedule(dynamic, 1)
+    for (std::ptrdiff_t a = 0; a < static_cast<std::ptrdiff_t>(angles.size()); ++a) {
+      const auto direction = static_cast<std::size_t>(a);
+      found[direction] = searchDirection(angles[direction]);
+    }
     std::vector<DensePlace> places;
-    for (const double angle : angles) searchDirection(angle, places);
-    const double least = std::log(static_cast<double>(windows_) / kFalseAlarms);
-    const auto unclear = [&](DensePlace& place) {
-      return place.clarity < least || (place.clarity = clarityAmongAll(place)) < least;
-    };
-    places.erase(std::remove_if(places.begin(), places.end(), unclear), places.end());
+    std::size_t windows = 0;
+    for (const Findings& of_direction : found) {
+      places.insert(places.end(), of_direction.places.begin(), of_direction.places.end());
+      windows += of_direction.windows;
+    }
+    const double least = std::log(static_cast<double>(windows) / kFalseAlarms);
+    keepClear(least, places);
+#pragma omp parallel for num_threads(threadsFor(threads)) schedule(dynamic, 16)
+    for (std::ptrdiff_t p = 0; p < static_cast<std::ptrdiff_t>(places.size()); ++p) {
+      DensePlace& place = places[static_cast<std::size_t>(p)];
+      place.clarity = clarityAmongAll(place);
+    }
+    keepClear(least, places);
     std::stable_sort(places.begin(), places.end(), [](const DensePlace& a, const DensePlace& b) {
       return a.clarity > b.clarity;
     });
@@ -48,8 +62,19 @@ class Search {
   }
 
  private:
+  struct Findings {
+    std::vector<DensePlace> places;
+    std::size_t windows = 0;  // tests made
+  };
+
+  static void keepClear(double least, std::vector<DensePlace>& places) {
+    const auto unclear = [&](const DensePlace& place) { return place.clarity < least; };
+    places.erase(std::remove_if(places.begin(), places.end(), unclear), places.end());
+  }
+
   // Strips overlap by half, so that every wall as long as a strip and a half fills one.
-  void searchDirection(double angle, std::vector<DensePlace>& places) {
+  Findings searchDirection(double angle) const {
+    Findings found;
     const Eigen::Vector2d normal(std::cos(angle), std::sin(angle));
     const Eigen::Vector2d tangent(-normal.y(), normal.x());
     const double agreement = std::cos(kVoteAngle);
@@ -71,25 +96,29 @@ class Search {
       place.normal = normal;
       place.s_min = half * strip;
       place.s_max = place.s_min + 2.0 * half;
-      if (place.clarity > 0.0) places.push_back(place);
+      if (place.clarity > 0.0) found.places.push_back(place);
+      found.windows += across.size();
     }
+    return found;
   }
 
-  // The clearest window of a strip.
-  DensePlace clearestOf(const std::vector<double>& across) {
+  // The clearest window of a strip that begins at a point, given the points' places in order.
+  DensePlace clearestOf(const std::vector<double>& across) const {
     DensePlace best;
     const double width = kWindow * noise_;
-    const auto countIn = [&](double low, double high) {
-      return static_cast<double>(std::lower_bound(across.begin(), across.end(), high) -
-                                 std::lower_bound(across.begin(), across.end(), low));
+    std::size_t before = 0, first = 0, end = 0, after = 0;  // points below the four bounds
+    const auto advance = [&](std::size_t& point, double bound) {
+      while (point < across.size() && across[point] < bound) ++point;
     };
     for (const double low : across) {
-      ++windows_;
       const double middle = low + 0.5 * width;
-      const double count = countIn(low, low + width);
-      const double expected = expectedOf(countIn(middle - kBeside * noise_, low),
-                                         countIn(low + width, middle + kBeside * noise_));
-      const double clarity = clarityOf(count, expected);
+      advance(before, middle - kBeside * noise_);
+      advance(first, low);
+      advance(end, low + width);
+      advance(after, middle + kBeside * noise_);
+      const double expected =
+          expectedOf(static_cast<double>(first - before), static_cast<double>(after - end));
+      const double clarity = clarityOf(static_cast<double>(end - first), expected);
       if (clarity <= best.clarity) continue;
       best.clarity = clarity;
       best.offset = middle;
@@ -132,15 +161,15 @@ class Search {
   PointBlocks blocks_;
   double noise_;
   std::vector<std::size_t> left_;
-  std::size_t windows_ = 0;  // tests made
 };
 
 }  // namespace
 
 std::vector<DensePlace> findDensePlaces(const std::vector<WallPoint>& points,
                                         const std::vector<char>& left,
-                                        const std::vector<double>& angles, double noise) {
-  return Search(points, left, noise).run(angles);
+                                        const std::vector<double>& angles, double noise,
+                                        unsigned int threads) {
+  return Search(points, left, noise).run(angles, threads);
 }
 
 }  // namespace storey::detail

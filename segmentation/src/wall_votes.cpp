@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/wall_votes.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace storey::detail {
 namespace {
 
 constexpr int kDegrees = 360;
+constexpr std::size_t kRows = 16;   // of a task
 constexpr std::size_t kFew = 2000;  // points that are not worth a second thread
 
 int degreeOf(double angle) {
@@ -16,9 +17,11 @@ int degreeOf(double angle) {
   return degree < 0 ? degree + kDegrees : degree;
 }
 
+}  // namespace
+
 // Points by the direction of their normals, whole degree by degree: those that vote for a row are
 // together.
-struct Ballots {
+struct VoteTable::Ballots {
   std::vector<Eigen::Vector2d> positions;
   std::vector<Eigen::Vector2d> normals;
   std::vector<std::size_t> first;  // of each degree
@@ -55,16 +58,14 @@ struct Ballots {
   }
 };
 
-}  // namespace
-
 VoteTable::VoteTable(const std::vector<WallPoint>& points, std::vector<double> angles, double bin,
-                     int window, unsigned int threads)
+                     int window, TaskCrew& crew)
     : points_(points),
       angles_(std::move(angles)),
       bin_(bin),
       bins_per_length_(1.0 / bin),
       window_(window),
-      threads_(threads) {
+      crew_(crew) {
   double squared = 0.0;
   for (const WallPoint& p : points) squared = std::max(squared, p.position.squaredNorm());
   const double radius = std::sqrt(squared);
@@ -78,22 +79,27 @@ VoteTable::VoteTable(const std::vector<WallPoint>& points, std::vector<double> a
 
 void VoteTable::vote(const std::vector<int>& numbers, int amount) {
   const Ballots ballots(points_, numbers);
+  const std::size_t rows = normals_.size();
+  const std::size_t parts = numbers.size() > kFew ? (rows + kRows - 1) / kRows : 1;
+  crew_.run(parts, [&](std::size_t part) {
+    for (std::size_t a = part * rows / parts; a < (part + 1) * rows / parts; ++a) {
+      voteInRow(a, ballots, amount);
+    }
+  });
+}
+
+void VoteTable::voteInRow(std::size_t angle, const Ballots& ballots, int amount) {
   const double least = std::cos(kVoteAngle);
-  const auto rows = static_cast<std::ptrdiff_t>(normals_.size());
-#pragma omp parallel for num_threads(threadsFor(threads_)) \
-    schedule(static) if (numbers.size() > kFew)
-  for (std::ptrdiff_t r = 0; r < rows; ++r) {
-    const auto a = static_cast<std::size_t>(r);
-    const Eigen::Vector2d normal = normals_[a];
-    int* row = votes_.data() + a * static_cast<std::size_t>(bins_);
-    ballots.forEachRange(angles_[a], [&](std::size_t from, std::size_t to, bool sure) {
-      for (std::size_t i = from; i < to; ++i) {
-        if (!sure && normal.dot(ballots.normals[i]) < least) continue;
-        row[binOf(normal.dot(ballots.positions[i]))] += amount;
-      }
-      changed_[a] = 1;
-    });
-  }
+  const Eigen::Vector2d normal = normals_[angle];
+  int* row = votes_.data() + angle * static_cast<std::size_t>(bins_);
+  ballots.forEachRange(angles_[angle], [&](std::size_t from, std::size_t to, bool sure) {
+    for (std::size_t i = from; i < to; ++i) {
+      if (!sure && normal.dot(ballots.normals[i]) < least) continue;
+      row[binOf(normal.dot(ballots.positions[i]))] += amount;
+    }
+  });
+  // Where votes are taken away, the strongest window stays so unless it loses some.
+  if (amount > 0 || votesIn(angle, peaks_[angle].bin) != peaks_[angle].votes) changed_[angle] = 1;
 }
 
 VoteTable::Peak VoteTable::strongest() {
@@ -109,6 +115,13 @@ VoteTable::Peak VoteTable::strongest() {
 void VoteTable::strikeOut(const Peak& peak) {
   struck_.push_back(peak);
   changed_[peak.angle] = 1;
+}
+
+void VoteTable::takeBack(std::size_t strikes) {
+  for (; strikes > 0; --strikes) {
+    changed_[struck_.back().angle] = 1;
+    struck_.pop_back();
+  }
 }
 
 WallLine VoteTable::lineAt(const Peak& peak) const {
@@ -138,6 +151,12 @@ VoteTable::Peak VoteTable::strongestOf(std::size_t angle) const {
     }
   }
   return best;
+}
+
+int VoteTable::votesIn(std::size_t angle, int bin) const {
+  const int* row = votes_.data() + angle * static_cast<std::size_t>(bins_);
+  const int end = bin + window_ / 2 + 1;
+  return std::accumulate(row + std::max(0, end - window_), row + end, 0);
 }
 
 bool VoteTable::struckOut(std::size_t angle, int bin) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/console/print.h>
 #include <storey/filters/detail/threads.h>
-#include <storey/surface/detail/level_evidence.h>
+#include <storey/surface/detail/level_fitting.h>
 
 #include <algorithm>
 
@@ -42,13 +42,13 @@ std::vector<HeightFit> applyLevels(std::vector<FloorplanLayer>& layers,
   return kept_levels;
 }
 
-std::vector<HeightFit> fitLevels(const std::vector<detail::LevelEvidence>& evidence,
-                                 const FitOptions& options, double tails) {
-  std::vector<HeightFit> levels(evidence.size());
-#pragma omp parallel for num_threads(detail::threadsFor(options.threads)) schedule(dynamic, 1)
+std::vector<HeightFit> fitLevels(const std::vector<detail::LevelFitting>& fittings, double tails,
+                                 unsigned int threads) {
+  std::vector<HeightFit> levels(fittings.size());
+#pragma omp parallel for num_threads(detail::threadsFor(threads)) schedule(dynamic, 1)
   for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(levels.size()); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    levels[k] = detail::fitLevel(evidence[k], options.noise, options.max_shift, tails);
+    levels[k] = fittings[k].fit(tails);
   }
   return levels;
 }
@@ -65,9 +65,13 @@ std::vector<HeightFit> fitHeights(std::vector<FloorplanLayer>& layers, const Fit
   if (layers.empty()) return {};
   const std::vector<detail::LevelEvidence> evidence =
       detail::collectLevelEvidence(layers, points, options);
-  std::vector<HeightFit> levels = fitLevels(evidence, options, 0.0);
+  std::vector<detail::LevelFitting> fittings;
+  for (const detail::LevelEvidence& level : evidence) {
+    fittings.emplace_back(level, options.noise, options.max_shift, options.threads);
+  }
+  std::vector<HeightFit> levels = fitLevels(fittings, 0.0, options.threads);
   const double tails = detail::tailsOf(evidence, levels, options.noise);
-  if (tails > 0.0) levels = fitLevels(evidence, options, tails);
+  if (tails > 0.0) levels = fitLevels(fittings, tails, options.threads);
   for (std::size_t k = 1; k < levels.size(); ++k) {
     levels[k].z = std::max(levels[k].z, levels[k - 1].z);
   }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/surface/detail/blurred_step.h>
 #include <storey/surface/detail/level_evidence.h>
+#include <storey/surface/detail/level_fitting.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace storey::detail {
@@ -14,88 +14,10 @@ constexpr double kLeastStray = 0.0005;  // density of a wall beyond its end, of 
 constexpr double kStrayCap = 0.1;       // share of the points that lie elsewhere
 constexpr double kClear = 10.0;         // log-likelihood: a level that is really there
 constexpr double kBlur = 3.0;           // noise deviations: within, before and beyond mix
-constexpr double kReach = 8.0;          // noise deviations: beyond, a step is 0 or 1
 constexpr double kCapReach = 12.0;      // noise deviations: beyond, a bell is 0 to rounding
-constexpr double kTailFactor = 5.0;  // noise of the points of heavy tails over that of the others
-constexpr double kTailReach = 15.0;  // noise deviations that they reach
-constexpr double kClearRise = 4.0;   // deviations: a density that really changes with height
-constexpr double kClearTails = 4.0;  // deviations: tails that are really there
+constexpr double kClearRise = 4.0;      // deviations: a density that really changes with height
+constexpr double kClearTails = 4.0;     // deviations: tails that are really there
 constexpr double kMaxTails = 0.3;
-constexpr double kInvSqrt2Pi = 0.3989422804014327;
-
-double bellAt(double u) { return kInvSqrt2Pi * std::exp(-0.5 * u * u); }
-
-// The normal distribution function, by cubics between 4096 places: exact to 1e-11.
-class NormalSteps {
- public:
-  NormalSteps() {
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-      const double u = static_cast<double>(i) * kWidth - kFar;
-      values_[i] = 0.5 * std::erfc(-u * M_SQRT1_2);
-      slopes_[i] = kWidth * bellAt(u);
-    }
-  }
-
-  double operator()(double u) const {
-    if (!(u > -kFar)) return 0.0;
-    if (u >= kFar) return 1.0;
-    const double place = (u + kFar) / kWidth;
-    const auto i = static_cast<std::size_t>(place);
-    const double t = place - static_cast<double>(i);
-    const double rise = values_[i + 1] - values_[i];
-    const double from = slopes_[i] - rise;
-    const double to = rise - slopes_[i + 1];
-    return values_[i] + t * (rise + (1.0 - t) * ((1.0 - t) * from + t * to));
-  }
-
- private:
-  static constexpr double kFar = 8.0;  // beyond, it is 0 or 1 to 1e-15
-  static constexpr std::size_t kPlaces = 4096;
-  static constexpr double kWidth = 2.0 * kFar / kPlaces;
-
-  std::array<double, kPlaces + 1> values_;
-  std::array<double, kPlaces + 1> slopes_;
-};
-
-double normalStep(double u) {
-  static const NormalSteps steps;
-  return steps(u);
-}
-
-// The integral of the step's tail beyond u.
-double beyondStep(double u) { return bellAt(u) - u * normalStep(-u); }
-
-// A step as the noise shows it, u in noise deviations.
-struct BlurredStep {
-  double noise = 0.0;
-  double tails = 0.0;  // share of the points that err kTailFactor times as much
-
-  double reach() const { return tails > 0.0 ? kTailReach : kReach; }
-  double at(double u) const {
-    if (tails == 0.0) return normalStep(u);
-    return (1.0 - tails) * normalStep(u) + tails * normalStep(u / kTailFactor);
-  }
-  double slopeAt(double u) const {
-    if (tails == 0.0) return bellAt(u);
-    return (1.0 - tails) * bellAt(u) + tails * bellAt(u / kTailFactor) / kTailFactor;
-  }
-  // Points of the tails between two distances beyond the step, for a density of 1.
-  double tailsBetween(double from, double to) const {
-    const double scale = kTailFactor * noise;
-    return tails * scale * (beyondStep(from / scale) - beyondStep(to / scale));
-  }
-};
-
-// The integral of ((1 - stray) S')^2 / ((1 - stray) S + stray): 0.9032 without strays and tails.
-double stepInformation(const BlurredStep& step, double stray) {
-  constexpr double kWidth = 0.05;
-  double sum = 0.0;
-  for (double u = -step.reach(); u <= step.reach(); u += kWidth) {
-    const double slope = (1.0 - stray) * step.slopeAt(u);
-    sum += slope * slope / ((1.0 - stray) * step.at(u) + stray) * kWidth;
-  }
-  return sum;
-}
 
 double count(std::vector<double>::const_iterator from, std::vector<double>::const_iterator to) {
   return static_cast<double>(to - from);
@@ -320,63 +242,36 @@ class Steps {
   std::size_t size_ = 0;
 };
 
-struct Maximum {
-  double z = 0.0;
-  double value = -std::numeric_limits<double>::infinity();
-};
-
-// A scan in steps of half a deviation, then golden section.
-template <typename Function>
-Maximum maximize(const Function& function, double from, double to, double noise) {
-  const int steps = std::clamp(static_cast<int>((to - from) / (0.5 * noise)), 4, 400);
-  Maximum best;
-  for (int i = 0; i <= steps; ++i) {
-    const double z = from + (to - from) * i / steps;
-    const double value = function(z);
-    if (value > best.value) best = {z, value};
-  }
-  constexpr double kGolden = 0.6180339887498949;
-  double a = std::max(from, best.z - (to - from) / steps);
-  double b = std::min(to, best.z + (to - from) / steps);
-  double c = b - kGolden * (b - a);
-  double d = a + kGolden * (b - a);
-  double at_c = function(c);
-  double at_d = function(d);
-  while (b - a > 1e-4 * noise) {
-    if (at_c > at_d) {
-      b = d;
-      d = c;
-      at_d = at_c;
-      c = b - kGolden * (b - a);
-      at_c = function(c);
-    } else {
-      a = c;
-      c = d;
-      at_c = at_d;
-      d = a + kGolden * (b - a);
-      at_d = function(d);
-    }
-  }
-  return {0.5 * (a + b), std::max(at_c, at_d)};
-}
-
 }  // namespace
 
-HeightFit fitLevel(const LevelEvidence& level, double noise, double max_shift, double tails) {
-  HeightFit fit;
-  fit.z = level.guess;
-  fit.cap_support = level.caps.size();
-  const double from = std::max(level.low + noise, level.guess - max_shift);
-  const double to = std::min(level.high - noise, level.guess + max_shift);
-  if (!(from < to)) return fit;
-  const Steps steps(level, from, to, {noise, tails});
-  fit.wall_support = steps.size();
+LevelFitting::LevelFitting(const LevelEvidence& level, double noise, double max_shift,
+                           unsigned int threads)
+    : level_(level),
+      noise_(noise),
+      scan_(std::max(level.low + noise, level.guess - max_shift),
+            std::min(level.high - noise, level.guess + max_shift), noise) {
+  if (scan_.empty() || level.caps.empty()) return;
   const CapLikelihood caps(level.caps, level.high - level.low, noise);
   const auto ofCaps = [&](double z) { return caps.at(z); };
+  cap_values_ = scan_.valuesOf(ofCaps, threads);
   // Points of a slanted roof lie at no level.
-  const bool flat = !level.caps.empty() && maximize(ofCaps, from, to, noise).value > kClear;
-  const auto ofAll = [&](double z) { return steps.at(z) + (flat ? caps.at(z) : 0.0); };
-  const Maximum best = maximize(ofAll, from, to, noise);
+  if (!(scan_.refined(cap_values_, ofCaps).value > kClear)) cap_values_.clear();
+}
+
+HeightFit LevelFitting::fit(double tails) const {
+  HeightFit fit;
+  fit.z = level_.guess;
+  fit.cap_support = level_.caps.size();
+  if (scan_.empty()) return fit;
+  const Steps steps(level_, scan_.from(), scan_.to(), {noise_, tails});
+  fit.wall_support = steps.size();
+  const bool flat = !cap_values_.empty();
+  const CapLikelihood caps(flat ? level_.caps : std::vector<double>(), level_.high - level_.low,
+                           noise_);
+  std::vector<double> values = scan_.valuesOf([&](double z) { return steps.at(z); }, 1);
+  for (std::size_t i = 0; flat && i < values.size(); ++i) values[i] += cap_values_[i];
+  const ScanMaximum best =
+      scan_.refined(values, [&](double z) { return steps.at(z) + (flat ? caps.at(z) : 0.0); });
   if (best.value < kClear) return fit;
   fit.z = best.z;
   fit.deviation =

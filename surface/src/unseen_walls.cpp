@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/surface/detail/edge_index.h>
-#include <storey/surface/detail/level_evidence.h>
+#include <storey/surface/detail/level_fitting.h>
 #include <storey/surface/detail/wall_corners.h>
 #include <storey/surface/floorplan_fitting.h>
 
@@ -123,7 +123,7 @@ std::vector<HeightFit> fitEnds(const std::vector<Corner>& corners, const FitPoin
   const auto fitAll = [&](double tails) {
     std::vector<HeightFit> ends;
     for (const detail::LevelEvidence& end : evidence) {
-      ends.push_back(detail::fitLevel(end, noise, kMaxShift * noise, tails));
+      ends.push_back(detail::LevelFitting(end, noise, kMaxShift * noise).fit(tails));
     }
     return ends;
   };

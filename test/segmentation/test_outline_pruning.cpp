@@ -92,15 +92,15 @@ TEST(OutlinePruning, NeverRaisesTheObjectiveAndEachBlockIsTheBestWithItsEdges) {
   EXPECT_GT(merged, 10) << "weak cases";
 }
 
-TEST(OutlinePruning, TheSameInputGivesTheSameBlocks) {
+TEST(OutlinePruning, TheSameInputGivesTheSameBlocksInAnyNumberOfThreads) {
   const LineArrangement plan =
       arrangeLines(gridLines({2, 4, 7, 10}, {1, 3, 6, 8}), {0, 0}, {12, 10}, 1e-9);
   std::mt19937 random(2);
   for (int round = 0; round < 20; ++round) {
     std::vector<CellBlock> one = randomStack(plan, random);
     std::vector<CellBlock> other = one;
-    pruneOutlines(plan, kGap, 0.5, one);
-    pruneOutlines(plan, kGap, 0.5, other);
+    pruneOutlines(plan, kGap, 0.5, one, true, 1);
+    pruneOutlines(plan, kGap, 0.5, other, true, 3);
     ASSERT_EQ(one.size(), other.size());
     for (std::size_t b = 0; b < one.size(); ++b) {
       EXPECT_EQ(one[b].last_bin, other[b].last_bin);

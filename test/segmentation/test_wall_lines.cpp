@@ -170,6 +170,33 @@ TEST(WallLines, AFacadeSeenFromAfarIsAWall) {
   EXPECT_TRUE(std::none_of(large.begin(), large.end(), facesBack));
 }
 
+TEST(WallLines, InAnyNumberOfThreadsTheSame) {
+  // Among clutter, and with a least area that clutter nearly has, most peaks are no lines.
+  const WallSampling sampling;
+  std::mt19937 random(9);
+  std::vector<WallPoint> points = wallsOf(kPolygon, sampling, 9);
+  std::uniform_real_distribution<double> place(-2.0, 20.0);
+  std::uniform_real_distribution<double> angle(0.0, 2.0 * M_PI);
+  for (int i = 0; i < 6000; ++i) {
+    const double a = angle(random);
+    points.push_back(
+        {{place(random), place(random)}, 0.2 * place(random), {std::cos(a), std::sin(a)}});
+  }
+  detail::WallLineOptions options{0.5};
+  options.threads = 1;
+  const auto alone = findWallLines(points, scaleOf(sampling), options);
+  options.threads = 4;
+  const auto together = findWallLines(points, scaleOf(sampling), options);
+  ASSERT_GE(alone.size(), kPolygon.size());
+  ASSERT_EQ(alone.size(), together.size());
+  for (std::size_t l = 0; l < alone.size(); ++l) {
+    EXPECT_EQ(alone[l].normal, together[l].normal);
+    EXPECT_EQ(alone[l].offset, together[l].offset);
+    EXPECT_EQ(alone[l].support, together[l].support);
+    EXPECT_EQ(alone[l].runs, together[l].runs);
+  }
+}
+
 TEST(WallLines, ScatteredPointsAreNoWalls) {
   const WallSampling sampling;
   std::mt19937 random(7);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
-#include <storey/surface/detail/level_evidence.h>
+#include <storey/surface/detail/level_fitting.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 namespace {
 
 using namespace storey;
-using detail::fitLevel;
 using detail::LevelEvidence;
+using detail::LevelFitting;
 using detail::tailsOf;
 
 constexpr double kSigma = 0.1;
@@ -87,7 +87,7 @@ TEST_P(LevelsOf, AreUnbiasedAndAsExactAsTheyCanBe) {
   int within_two = 0;
   for (int draw = 0; draw < kDraws; ++draw) {
     const LevelEvidence level = levelOf(drawEnding(spread, kLambda, random), off(random));
-    const HeightFit fit = fitLevel(level, kSigma, kMaxShift, spread.tails);
+    const HeightFit fit = LevelFitting(level, kSigma, kMaxShift).fit(spread.tails);
     sum += fit.z;
     squares += fit.z * fit.z;
     within_two += std::abs(fit.z) < 2.0 * fit.deviation;
@@ -120,8 +120,8 @@ TEST(LevelLikelihood, WallsThatStartAreThoseThatEndUpsideDown) {
     for (auto z = level.ends[0].rbegin(); z != level.ends[0].rend(); ++z) {
       mirrored.starts[0].push_back(-*z);
     }
-    const HeightFit fit = fitLevel(level, kSigma, kMaxShift, spread.tails);
-    const HeightFit other = fitLevel(mirrored, kSigma, kMaxShift, spread.tails);
+    const HeightFit fit = LevelFitting(level, kSigma, kMaxShift).fit(spread.tails);
+    const HeightFit other = LevelFitting(mirrored, kSigma, kMaxShift).fit(spread.tails);
     EXPECT_NEAR(other.z, -fit.z, 1e-3 * kSigma);
     EXPECT_NEAR(other.deviation, fit.deviation, 1e-3 * kSigma);
   }
@@ -135,7 +135,7 @@ struct TailedLevels {
   TailedLevels(const Spread& spread, double lambda, std::mt19937& random) {
     for (int k = 0; k < 4; ++k) {
       levels.push_back(levelOf(drawEnding(spread, lambda, random), 0.1));
-      fits.push_back(fitLevel(levels.back(), kSigma, kMaxShift, 0.0));
+      fits.push_back(LevelFitting(levels.back(), kSigma, kMaxShift).fit(0.0));
     }
   }
 };

@@ -30,12 +30,12 @@ struct CellTerms {
 CellTerms termsOfBins(const LineArrangement& plan, const WallEvidence& evidence, std::size_t first,
                       std::size_t last);
 
-/// The terms of each layer. \param levels bins of the boundaries, ascending
+/// The terms of each layer. \param levels bins of the boundaries, ascending, at least two
 /// \param level_weight of the horizontal points
 std::vector<CellTerms> termsOfLayers(const LineArrangement& plan, const WallEvidence& evidence,
                                      const std::vector<std::size_t>& levels,
                                      const std::vector<LevelPoint>& level_points,
-                                     double level_weight);
+                                     double level_weight, unsigned int threads = 0);
 
 /// The energy of a labelling:
 ///

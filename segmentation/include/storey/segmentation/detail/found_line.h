@@ -4,6 +4,7 @@
 #include <storey/segmentation/detail/point_blocks.h>
 #include <storey/segmentation/detail/wall_points.h>
 
+#include <limits>
 #include <vector>
 
 namespace storey::detail {
@@ -16,10 +17,18 @@ struct FoundLine {
 /// At 4 degrees from a direction, another is hardly told from it by a short wall.
 constexpr double kNearDirection = 0.06981317;  // rad
 
-/// The points that may be of a line whose first guess this is, ascending: near it, and with normals
-/// within `kVoteAngle` of its own. \param free of each point, whether it is of no line yet
+/// A part of a line, from end to end; all of it by default.
+struct LineStretch {
+  double s_min = -std::numeric_limits<double>::infinity();
+  double s_max = std::numeric_limits<double>::infinity();
+};
+
+/// The points that may be of a line whose first guess this is, ascending: near the stretch of it,
+/// and with normals within `kVoteAngle` of its own. \param free of each point, whether it is of no
+/// line yet
 std::vector<int> candidatesFor(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                               const std::vector<char>& free, const WallLine& line, double noise);
+                               const std::vector<char>& free, const WallLine& line, double noise,
+                               const LineStretch& stretch = {});
 
 /// Whether a point lies within `across` of the line, where that has support or a little beyond it,
 /// and its normal agrees.

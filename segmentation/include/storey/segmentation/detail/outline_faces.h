@@ -2,6 +2,7 @@
 #pragma once
 
 #include <storey/segmentation/detail/cell_energy.h>
+#include <storey/segmentation/detail/cell_neighbors.h>
 
 #include <cstddef>
 #include <vector>
@@ -44,7 +45,7 @@ double complexityOf(const LineArrangement& plan, const std::vector<BlockOutline>
 
 /// The part of `complexityOf` that two neighbouring blocks alone decide, all but the walls.
 /// \param lower, upper their labels; null: there is no block
-double jointComplexity(const LineArrangement& plan, const std::vector<char>* lower,
+double jointComplexity(const CellNeighbors& neighbors, const std::vector<char>* lower,
                        const std::vector<char>* upper);
 
 }  // namespace storey::detail

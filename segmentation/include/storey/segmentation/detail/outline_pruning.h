@@ -21,8 +21,10 @@ namespace storey::detail {
 /// Runs and lines with little to show are tried first; those that have seen clearly more than the
 /// cost are not tried.
 /// \param gap as in `CellEnergyOptions` \param cost in units of wall area \param may_vanish whether
-/// nothing at all is an outcome, where nothing earns its cost
+/// nothing at all is an outcome, where nothing earns its cost \param threads 0: all cores; the
+/// result is the same for any number
 void pruneOutlines(const LineArrangement& plan, double gap, double cost,
-                   std::vector<CellBlock>& blocks, bool may_vanish = true);
+                   std::vector<CellBlock>& blocks, bool may_vanish = true,
+                   unsigned int threads = 0);
 
 }  // namespace storey::detail

@@ -28,6 +28,7 @@ struct SimplicityLimits {
 /// what was met on the way, from the given blocks on; each with fewer faces than the one before
 std::vector<OutlineTradeOff> simplifyOutlines(const LineArrangement& plan, double gap,
                                               double face_cost, const SimplicityLimits& limits,
-                                              std::vector<CellBlock>& blocks);
+                                              std::vector<CellBlock>& blocks,
+                                              unsigned int threads = 0);
 
 }  // namespace storey::detail

@@ -28,6 +28,14 @@ class PointBlocks {
     return off < reach + circle.radius && off > -reach - circle.radius;
   }
 
+  /// Whether a point p of the block may have low <= direction . p <= high.
+  bool mayBeBetween(std::size_t block, const Eigen::Vector2d& direction, double low,
+                    double high) const {
+    const Circle& circle = circles_[block];
+    const double place = direction.dot(circle.center);
+    return place + circle.radius >= low && place - circle.radius <= high;
+  }
+
  private:
   static constexpr std::size_t kLength = 64;
 

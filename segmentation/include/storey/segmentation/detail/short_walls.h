@@ -2,6 +2,7 @@
 #pragma once
 
 #include <storey/segmentation/detail/found_line.h>
+#include <storey/segmentation/detail/wall_density.h>
 #include <storey/segmentation/detail/wall_lines.h>
 
 #include <vector>
@@ -14,8 +15,8 @@ namespace storey::detail {
 /// wall. \param angles of the outward normals that walls may have, rad \param free of each point,
 /// whether it is of no line yet
 void extractShortWalls(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                       const WallScale& scale, const WallLineOptions& options,
-                       const std::vector<double>& angles, std::vector<char>& free,
-                       std::vector<FoundLine>& lines);
+                       const WallScale& scale, const HeightDensity& density,
+                       const WallLineOptions& options, const std::vector<double>& angles,
+                       std::vector<char>& free, std::vector<FoundLine>& lines);
 
 }  // namespace storey::detail

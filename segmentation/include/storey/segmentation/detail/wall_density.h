@@ -13,7 +13,9 @@ class HeightDensity {
  public:
   /// In zones of equal height, the median over points of the zone of how dense their surroundings
   /// are: those in which a point has ten others of its wall.
-  HeightDensity(const std::vector<WallPoint>& points, const WallScale& scale);
+  /// \param threads 0: all cores; the result is the same for any number
+  HeightDensity(const std::vector<WallPoint>& points, const WallScale& scale,
+                unsigned int threads = 0);
 
   double at(double z) const { return densities_[zoneOf(z)]; }  ///< there must be points
   double least() const;

@@ -30,6 +30,7 @@ constexpr double kMinEndedRun = 15.0;
 /// height, for what hides a part of a wall has any outline, and joined where bands above each other
 /// agree to `kEndReach`.
 std::vector<WallEnd> findWallEnds(const std::vector<WallLine>& walls,
-                                  const std::vector<WallPoint>& points, const WallScale& scale);
+                                  const std::vector<WallPoint>& points, const WallScale& scale,
+                                  unsigned int threads = 0);
 
 }  // namespace storey::detail

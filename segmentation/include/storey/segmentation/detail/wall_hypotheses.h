@@ -17,6 +17,6 @@ namespace storey::detail {
 /// \param corner_gap length by which the points of walls end short of corners
 std::vector<PlanLine> hypothesiseLines(const std::vector<WallLine>& walls,
                                        const std::vector<WallPoint>& points, const WallScale& scale,
-                                       double corner_gap);
+                                       double corner_gap, unsigned int threads = 0);
 
 }  // namespace storey::detail

@@ -23,9 +23,11 @@ struct DensePlace {
 /// with a Poisson tail).
 /// \param left of each point, whether it is of no wall yet: those alone make a place; the others
 /// count beside it \param angles of the outward normals that walls may have, rad
+/// \param threads 0: all cores; the result is the same for any number
 /// \return the clearest first; places of the same wall may overlap
 std::vector<DensePlace> findDensePlaces(const std::vector<WallPoint>& points,
                                         const std::vector<char>& left,
-                                        const std::vector<double>& angles, double noise);
+                                        const std::vector<double>& angles, double noise,
+                                        unsigned int threads = 0);
 
 }  // namespace storey::detail

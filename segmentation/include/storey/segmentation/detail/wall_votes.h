@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <storey/filters/detail/task_crew.h>
 #include <storey/segmentation/detail/wall_points.h>
 
 #include <cstddef>
@@ -19,9 +20,9 @@ class VoteTable {
   };
 
   /// \param angles of the rows' normals, rad \param bin width \param window bins that are summed
-  /// \param threads 0: all cores; the result is the same for any number
+  /// \param crew that counts votes; they are the same for any number of threads
   VoteTable(const std::vector<WallPoint>& points, std::vector<double> angles, double bin,
-            int window, unsigned int threads);
+            int window, TaskCrew& crew);
 
   /// Adds `amount` for each of the points of these numbers, in all rows within `kVoteAngle` of its
   /// normal.
@@ -30,16 +31,21 @@ class VoteTable {
   /// The window with most votes. What was struck out does not count.
   Peak strongest();
   void strikeOut(const Peak& peak);
+  void takeBack(std::size_t strikes);  ///< the last ones
 
   /// A line at the mean offset of the window's votes, not at its middle.
   WallLine lineAt(const Peak& peak) const;
 
  private:
+  struct Ballots;
+
+  void voteInRow(std::size_t angle, const Ballots& ballots, int amount);
   int binOf(double offset) const {
     const auto bin = static_cast<int>((offset - low_) * bins_per_length_);
     return bin < 0 ? 0 : bin < bins_ ? bin : bins_ - 1;
   }
   Peak strongestOf(std::size_t angle) const;
+  int votesIn(std::size_t angle, int bin) const;  // in the window about the bin
   bool struckOut(std::size_t angle, int bin) const;
 
   const std::vector<WallPoint>& points_;
@@ -48,7 +54,7 @@ class VoteTable {
   double bin_;
   double bins_per_length_;
   int window_;
-  unsigned int threads_;
+  TaskCrew& crew_;
   double low_ = 0.0;
   int bins_ = 0;
   std::vector<int> votes_;

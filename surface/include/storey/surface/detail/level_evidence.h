@@ -35,18 +35,6 @@ struct LevelEvidence {
 std::vector<LevelEvidence> collectLevelEvidence(const std::vector<FloorplanLayer>& layers,
                                                 const FitPoints& points, const FitOptions& options);
 
-/// The height of a level by maximum likelihood, at most `max_shift` from its guess.
-///
-/// Heights of points of a wall that ends at z are a Poisson process of intensity
-///     lambda exp(g (z_i - z)) ((1 - q) S((z - z_i) / sigma) + q),
-/// with S the step of a normal distribution, of which a share `tails` errs five times as much, q
-/// that of strays (points of close neighbours that go on), and g the change of density with height,
-/// where it is clear, of each of the four lists; those of a level face are N(z, sigma), but for a
-/// tenth that lie anywhere. lambda, q and g are profiled out, and all is relative to "nothing ends
-/// here": uniform over the window. A level whose likelihood is not clearly more than that (by a
-/// factor of e^10) stays at its guess with an infinite deviation.
-HeightFit fitLevel(const LevelEvidence& level, double noise, double max_shift, double tails);
-
 /// The share of points with heavy tails, five times the noise: from what lies 3 to 15 deviations
 /// beyond the levels, less the strays, which go on further. 0 if there is not clearly more.
 double tailsOf(const std::vector<LevelEvidence>& levels, const std::vector<HeightFit>& fits,
