@@ -197,14 +197,15 @@ std::map<int, WallFit> solve(Walls& walls, double noise) {
   return fits;
 }
 
-// Walls whose directions (modulo 180 degrees) agree share the weighted mean; each turns about the
-// centre of its points, so that its offset stays the least-squares one.
-void shareDirections(Walls& walls, std::map<int, WallFit>& fits) {
-  struct Direction {
-    double angle;
-    double deviation;
-    Wall* wall;
-  };
+// Of a wall, modulo 180 degrees.
+struct Direction {
+  double angle;
+  double deviation;
+  Wall* wall;
+};
+
+// Of the walls that tell theirs, ascending.
+std::vector<Direction> knownDirections(Walls& walls, const std::map<int, WallFit>& fits) {
   std::vector<Direction> directions;
   for (Wall& wall : walls) {
     const WallFit& fit = fits.at(wall.id);
@@ -213,10 +214,17 @@ void shareDirections(Walls& walls, std::map<int, WallFit>& fits) {
     if (angle < 0.0) angle += M_PI;
     directions.push_back({angle, fit.angle_deviation, &wall});
   }
-  if (directions.empty()) return;
   std::sort(directions.begin(), directions.end(), [](const Direction& a, const Direction& b) {
     return a.angle != b.angle ? a.angle < b.angle : a.wall->id < b.wall->id;
   });
+  return directions;
+}
+
+// Walls whose directions agree share the weighted mean; each turns about the centre of its points,
+// so that its offset stays the least-squares one.
+void shareDirections(Walls& walls, std::map<int, WallFit>& fits) {
+  std::vector<Direction> directions = knownDirections(walls, fits);
+  if (directions.empty()) return;
   const auto agree = [](const Direction& a, const Direction& b, double turn) {
     return turn <= kSameDirection * std::hypot(a.deviation, b.deviation);
   };
