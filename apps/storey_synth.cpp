@@ -3,13 +3,16 @@
 #include <storey/surface/extrusion.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/command_line.h"
 #include "io/failure.h"
+#include "io/limits.h"
 #include "io/model_io.h"
 #include "synth/accuracy_limit.h"
 #include "synth/buildings.h"
@@ -24,6 +27,7 @@ namespace io = storey::io;
 namespace synth = storey::synth;
 
 constexpr double kDegree = M_PI / 180.0;
+constexpr std::uint64_t kBytesPerPoint = 250;  // in memory, lists that grow and the file included
 
 /// What the user asked for, as typed.
 struct Request {
@@ -151,6 +155,10 @@ std::optional<synth::Building> parse(int argc, char** argv, Request& r) {
   if (r.photo.width > kMaxWidth)
     line.fail("--photo-width is more than " + std::to_string(kMaxWidth));
   if (r.name.empty() || r.output.empty()) line.fail("a building and an output (-o) are needed");
+  if (std::filesystem::path(r.output).extension() != ".ply")
+    line.fail("-o " + r.output + ": the cloud is written as PLY, expected a name with .ply");
+  if (r.points > io::availableMemory() / kBytesPerPoint)
+    line.fail("--points " + std::to_string(r.points) + " do not fit into memory");
   synth::Building building = synth::makeBuilding(r.name);
   if (building.layers.empty()) {
     line.fail("there is no building '" + r.name + "'; --list prints the names");

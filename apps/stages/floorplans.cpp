@@ -32,8 +32,14 @@ std::string extractBlocks(StageCloud& cloud, const BlockOptions& options,
         "(--min-wall-area)?");
   }
   found = extraction.getResult();
-  return format("%zu walls, %zu cells, %zu layers in %zu blocks", found.walls.size(),
-                found.plan.cells.size(), found.levels.size() - 1, blocks.size());
+  std::string line = format("%zu walls, %zu cells, %zu layers in %zu blocks", found.walls.size(),
+                            found.plan.cells.size(), found.levels.size() - 1, blocks.size());
+  const std::size_t faces = found.trade_off.empty() ? 0 : found.trade_off.back().faces;
+  if (simplicity.max_faces > 0 && faces > static_cast<std::size_t>(simplicity.max_faces)) {
+    line +=
+        format("; --max-faces %d cannot be kept, %zu are the fewest", simplicity.max_faces, faces);
+  }
+  return line;
 }
 
 std::string extractWalls(StageCloud& cloud, double min_area, unsigned int threads,

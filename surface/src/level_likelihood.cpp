@@ -18,6 +18,7 @@ constexpr double kCapReach = 12.0;      // noise deviations: beyond, a bell is 0
 constexpr double kClearRise = 4.0;      // deviations: a density that really changes with height
 constexpr double kClearTails = 4.0;     // deviations: tails that are really there
 constexpr double kMaxTails = 0.3;
+constexpr double kAtEnd = 1e-3;  // noise deviations from where the search ends
 
 double count(std::vector<double>::const_iterator from, std::vector<double>::const_iterator to) {
   return static_cast<double>(to - from);
@@ -276,6 +277,8 @@ HeightFit LevelFitting::fit(double tails) const {
   fit.z = best.z;
   fit.deviation =
       1.0 / std::sqrt(steps.information(fit.z) + (flat ? caps.information(fit.z) : 0.0));
+  const bool at_end = std::min(fit.z - scan_.from(), scan_.to() - fit.z) < kAtEnd * noise_;
+  if (at_end) fit.deviation = std::hypot(fit.deviation, scan_.to() - scan_.from());
   return fit;
 }
 

@@ -127,6 +127,16 @@ TEST(LevelLikelihood, WallsThatStartAreThoseThatEndUpsideDown) {
   }
 }
 
+TEST(LevelLikelihood, ALevelBeyondWhereItIsSoughtIsKnownNoBetterThanThat) {
+  std::mt19937 random(4);
+  for (const double guess : {-kMaxShift - 0.3, kMaxShift + 0.3}) {
+    const LevelEvidence level = levelOf(drawEnding({}, kLambda, random), guess);
+    const HeightFit fit = LevelFitting(level, kSigma, kMaxShift).fit(0.0);
+    EXPECT_LT(std::abs(fit.z), 2.0 * fit.deviation) << guess;
+    EXPECT_GE(fit.deviation, kMaxShift) << guess;
+  }
+}
+
 // Four levels of walls in which a share of the points have tails.
 struct TailedLevels {
   std::vector<LevelEvidence> levels;

@@ -17,7 +17,8 @@ namespace storey::detail {
 /// where it is clear, of each of the four lists; those of a level face are N(z, sigma), but for a
 /// tenth that lie anywhere. lambda, q and g are profiled out, and all is relative to "nothing ends
 /// here": uniform over the window. A level whose likelihood is not clearly more than that (by a
-/// factor of e^10) stays at its guess with an infinite deviation.
+/// factor of e^10) stays at its guess with an infinite deviation; one at the end of where it is
+/// sought may lie beyond, and its deviation is the length of the search.
 class LevelFitting {
  public:
   /// \param level of which there must be one as long as this \param threads 0: all cores
