@@ -15,9 +15,9 @@ namespace storey::detail {
 /// of a wall, which is what a face of the model must explain.
 /// \param angles of the outward normals that walls may have, rad
 /// \param free of each point, whether it is of no line yet
-void extractShortWalls(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                       const WallScale& scale, const HeightDensity& density,
-                       const WallLineOptions& options, const std::vector<double>& angles,
-                       std::vector<char>& free, std::vector<FoundLine>& lines);
+void extractShortWalls(const std::vector<WallPoint>& points, const WallScale& scale,
+                       const HeightDensity& density, const WallLineOptions& options,
+                       const std::vector<double>& angles, std::vector<char>& free,
+                       std::vector<FoundLine>& lines);
 
 }  // namespace storey::detail
