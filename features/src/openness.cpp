@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/features/detail/openness.h>
 #include <storey/features/detail/vertical_kernels.h>
+#include <storey/filters/detail/task_crew.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@ constexpr double kGrazing = 0.1;       // |d.n| below which a ray does not tell 
 constexpr double kStartOffset = 1.75;  // voxel sides between a wall and the start of its rays
 constexpr std::size_t kOrigins = 4;    // of rays on a patch
 constexpr int kRounds = 60;
+constexpr int kParts = 4;  // of a round, for each thread
 constexpr double kDamping = 0.5;
 constexpr double kFlushWeight = 0.3;  // of the neighbours in the same plane
 constexpr double kDecided = 0.5;      // |s| of a wall that the level rays decide
@@ -126,19 +128,22 @@ double flushMean(const WallVoxels& walls, const WallPatch& patch, const std::vec
 }
 
 std::vector<double> solve(const WallVoxels& walls, const std::vector<PatchOutlooks>& outlooks,
-                          double steep_weight, int num_threads) {
+                          double steep_weight, TaskCrew& crew) {
   std::vector<double> s(outlooks.size(), 0.0);
   std::vector<double> updated(s);
+  const auto update = [&](std::size_t i) {
+    const double difference = meanOutcome(outlooks[i].front, s, steep_weight) -
+                              meanOutcome(outlooks[i].back, s, steep_weight);
+    const double target =
+        std::clamp(difference + kFlushWeight * flushMean(walls, walls.patches[i], s), -1.0, 1.0);
+    updated[i] = s[i] + kDamping * (target - s[i]);
+  };
+  const auto parts = static_cast<std::size_t>(kParts * crew.size());
   for (int round = 0; round < kRounds; ++round) {
-#pragma omp parallel for num_threads(num_threads) schedule(static)
-    for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(s.size()); ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      const double difference = meanOutcome(outlooks[i].front, s, steep_weight) -
-                                meanOutcome(outlooks[i].back, s, steep_weight);
-      const double target =
-          std::clamp(difference + kFlushWeight * flushMean(walls, walls.patches[i], s), -1.0, 1.0);
-      updated[i] = s[i] + kDamping * (target - s[i]);
-    }
+    crew.run(parts, [&](std::size_t part) {
+      const std::size_t end = (part + 1) * s.size() / parts;
+      for (std::size_t i = part * s.size() / parts; i < end; ++i) update(i);
+    });
     s.swap(updated);
   }
   return s;
@@ -165,13 +170,13 @@ double steepWeight(const std::vector<PatchOutlooks>& outlooks, const std::vector
 std::vector<double> findOutsides(const WallVoxels& walls, int num_threads) {
   const Vectors3d directions = fibonacciHemisphere(kDirections);
   std::vector<PatchOutlooks> outlooks(walls.patches.size());
-#pragma omp parallel for num_threads(num_threads) schedule(dynamic, 8)
-  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(outlooks.size()); ++i) {
-    outlooks[static_cast<std::size_t>(i)] = lookAround(walls, static_cast<int>(i), directions);
-  }
-  const std::vector<double> level_only = solve(walls, outlooks, 0.0, num_threads);
+  TaskCrew crew(num_threads);
+  crew.run(outlooks.size(), [&](std::size_t i) {
+    outlooks[i] = lookAround(walls, static_cast<int>(i), directions);
+  });
+  const std::vector<double> level_only = solve(walls, outlooks, 0.0, crew);
   const double steep_weight = steepWeight(outlooks, level_only);
-  return solve(walls, outlooks, steep_weight, num_threads);
+  return solve(walls, outlooks, steep_weight, crew);
 }
 
 }  // namespace storey::detail

@@ -48,6 +48,14 @@ std::vector<Group> groupsOf(const std::vector<FoundLine>& lines) {
   return groups;
 }
 
+std::vector<int> numbersOf(const std::vector<char>& marks) {
+  std::vector<int> numbers;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (marks[i] != 0) numbers.push_back(static_cast<int>(i));
+  }
+  return numbers;
+}
+
 void addPerpendiculars(std::vector<double>& angles) {
   const std::vector<double> found = angles;
   for (const double angle : found) {
@@ -61,25 +69,29 @@ void addPerpendiculars(std::vector<double>& angles) {
 
 }  // namespace
 
-std::vector<int> candidatesFor(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                               const std::vector<char>& free, const WallLine& line, double noise,
-                               const LineStretch& stretch) {
+PointPool::PointPool(const std::vector<WallPoint>& all, const std::vector<char>& free)
+    : points(all), numbers(numbersOf(free)), blocks(all, numbers) {}
+
+std::vector<int> candidatesFor(const PointPool& pool, const std::vector<char>& free,
+                               const WallLine& line, double noise, const LineStretch& stretch) {
   const double gate = kCandidateGate * noise;
   std::vector<int> candidates;
   const double agreement = std::cos(kVoteAngle);
+  const PointBlocks& blocks = pool.blocks;
   for (std::size_t block = 0; block < blocks.size(); ++block) {
     if (!blocks.mayBeNear(block, line.normal, line.offset, gate) ||
         !blocks.mayBeBetween(block, line.tangent(), stretch.s_min, stretch.s_max)) {
       continue;
     }
-    for (std::size_t i = blocks.begin(block); i < blocks.end(block); ++i) {
-      const WallPoint& p = points[i];
-      if (free[i] == 0 || std::abs(line.across(p.position)) >= gate ||
+    for (std::size_t k = blocks.begin(block); k < blocks.end(block); ++k) {
+      const int i = pool.numbers[k];
+      const WallPoint& p = pool.points[static_cast<std::size_t>(i)];
+      if (free[static_cast<std::size_t>(i)] == 0 || std::abs(line.across(p.position)) >= gate ||
           line.normal.dot(p.normal) < agreement) {
         continue;
       }
       const double s = line.along(p.position);
-      if (s >= stretch.s_min && s <= stretch.s_max) candidates.push_back(static_cast<int>(i));
+      if (s >= stretch.s_min && s <= stretch.s_max) candidates.push_back(i);
     }
   }
   return candidates;

@@ -7,20 +7,30 @@
 namespace storey::detail {
 
 PointBlocks::PointBlocks(const std::vector<WallPoint>& points) : num_points_(points.size()) {
+  enclose([&](std::size_t i) { return points[i].position; });
+}
+
+PointBlocks::PointBlocks(const std::vector<WallPoint>& points, const std::vector<int>& numbers)
+    : num_points_(numbers.size()) {
+  enclose([&](std::size_t i) { return points[static_cast<std::size_t>(numbers[i])].position; });
+}
+
+template <typename PositionOf>
+void PointBlocks::enclose(const PositionOf& positionOf) {
   constexpr double kRounding = 1e-12;  // of the distance from the origin
-  circles_.reserve(points.size() / kLength + 1);
-  for (std::size_t from = 0; from < points.size(); from += kLength) {
-    const std::size_t to = std::min(points.size(), from + kLength);
-    Eigen::Vector2d low = points[from].position;
+  circles_.reserve(num_points_ / kLength + 1);
+  for (std::size_t from = 0; from < num_points_; from += kLength) {
+    const std::size_t to = std::min(num_points_, from + kLength);
+    Eigen::Vector2d low = positionOf(from);
     Eigen::Vector2d high = low;
     for (std::size_t i = from; i < to; ++i) {
-      low = low.cwiseMin(points[i].position);
-      high = high.cwiseMax(points[i].position);
+      low = low.cwiseMin(positionOf(i));
+      high = high.cwiseMax(positionOf(i));
     }
     const Eigen::Vector2d center = 0.5 * (low + high);
     double squared = 0.0;
     for (std::size_t i = from; i < to; ++i) {
-      squared = std::max(squared, (points[i].position - center).squaredNorm());
+      squared = std::max(squared, (positionOf(i) - center).squaredNorm());
     }
     circles_.push_back({center, std::sqrt(squared) + kRounding * center.norm()});
   }

@@ -63,36 +63,37 @@ struct Fit {
 };
 
 // The line through a place, and its support among the points that are left.
-Fit fitAt(const DensePlace& place, const std::vector<WallPoint>& points, const PointBlocks& blocks,
-          const WallScale& scale, const HeightDensity& density, const WallLineOptions& options,
+Fit fitAt(const DensePlace& place, const PointPool& pool, const WallScale& scale,
+          const HeightDensity& density, const WallLineOptions& options,
           const std::vector<char>& left) {
   Fit fit;
   WallLine& line = fit.found.line;
   line.normal = place.normal;
   line.offset = place.offset;
   const double reach = std::sqrt(options.min_area);
-  fit.candidates = candidatesFor(points, blocks, left, line, scale.noise,
-                                 {place.s_min - reach, place.s_max + reach});
+  fit.candidates =
+      candidatesFor(pool, left, line, scale.noise, {place.s_min - reach, place.s_max + reach});
   WallScale local = scale;
-  local.density = wallDensityAt(place, points, fit.candidates, density, scale.noise);
+  local.density = wallDensityAt(place, pool.points, fit.candidates, density, scale.noise);
   if (!(local.density > 0.0)) return fit;
   SupportOptions locked;
   locked.fit_direction = false;
   locked.by_normals = true;
   locked.steps = options.steps;
-  fit.found.support = fitToSupport(points, fit.candidates, local, locked, line);
+  fit.found.support = fitToSupport(pool.points, fit.candidates, local, locked, line);
   return fit;
 }
 
 }  // namespace
 
-void extractShortWalls(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                       const WallScale& scale, const HeightDensity& density,
-                       const WallLineOptions& options, const std::vector<double>& angles,
-                       std::vector<char>& free, std::vector<FoundLine>& lines) {
+void extractShortWalls(const std::vector<WallPoint>& points, const WallScale& scale,
+                       const HeightDensity& density, const WallLineOptions& options,
+                       const std::vector<double>& angles, std::vector<char>& free,
+                       std::vector<FoundLine>& lines) {
   std::vector<char> left = farFromLines(points, free, lines, scale.noise);
+  const PointPool pool(points, left);
   const auto fit = [&](const DensePlace& place) {
-    return fitAt(place, points, blocks, scale, density, options, left);
+    return fitAt(place, pool, scale, density, options, left);
   };
   const std::vector<DensePlace> places =
       findDensePlaces(points, left, angles, scale.noise, options.threads);

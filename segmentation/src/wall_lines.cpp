@@ -2,7 +2,6 @@
 #include <storey/filters/detail/task_crew.h>
 #include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/found_line.h>
-#include <storey/segmentation/detail/point_blocks.h>
 #include <storey/segmentation/detail/short_walls.h>
 #include <storey/segmentation/detail/wall_density.h>
 #include <storey/segmentation/detail/wall_lines.h>
@@ -48,15 +47,15 @@ std::vector<VoteTable::Peak> strikePeaks(VoteTable& table, double least_votes, s
 }
 
 // The line at each of the peaks; without support where none is found.
-std::vector<FoundLine> fitPeaks(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                                const WallScale& scale, const SupportOptions& options,
-                                const std::vector<char>& free, const VoteTable& table,
-                                const std::vector<VoteTable::Peak>& peaks, TaskCrew& crew) {
+std::vector<FoundLine> fitPeaks(const PointPool& pool, const WallScale& scale,
+                                const SupportOptions& options, const std::vector<char>& free,
+                                const VoteTable& table, const std::vector<VoteTable::Peak>& peaks,
+                                TaskCrew& crew) {
   std::vector<FoundLine> lines(peaks.size());
   crew.run(peaks.size(), [&](std::size_t i) {
     auto& [line, support] = lines[i];
     line = table.lineAt(peaks[i]);
-    support = fitToSupport(points, candidatesFor(points, blocks, free, line, scale.noise), scale,
+    support = fitToSupport(pool.points, candidatesFor(pool, free, line, scale.noise), scale,
                            options, line);
     if (line.support_area < options.min_area) support.clear();
   });
@@ -65,17 +64,14 @@ std::vector<FoundLine> fitPeaks(const std::vector<WallPoint>& points, const Poin
 
 // One greedy pass: strongest line, its support, take its points away, again. A peak without a line
 // changes nothing for the next one: the longer none was found, the more peaks are tried at once.
-void extractGreedily(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                     const WallScale& scale, const WallLineOptions& options, TaskCrew& crew,
-                     bool free_direction, std::vector<double> angles, std::vector<char>& free,
+void extractGreedily(const std::vector<WallPoint>& points, const WallScale& scale,
+                     const WallLineOptions& options, TaskCrew& crew, bool free_direction,
+                     std::vector<double> angles, std::vector<char>& free,
                      std::vector<FoundLine>& lines) {
   VoteTable table(points, std::move(angles), scale.noise * (free_direction ? kFreeBin : kLockedBin),
                   free_direction ? kFreeWindow : kLockedWindow, crew);
-  std::vector<int> voters;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (free[i] != 0) voters.push_back(static_cast<int>(i));
-  }
-  table.vote(voters, 1);
+  const PointPool pool(points, free);
+  table.vote(pool.numbers, 1);
   SupportOptions support_options;
   support_options.fit_direction = free_direction;
   support_options.min_area = options.min_area;
@@ -87,8 +83,7 @@ void extractGreedily(const std::vector<WallPoint>& points, const PointBlocks& bl
     const std::vector<VoteTable::Peak> peaks =
         strikePeaks(table, least_votes, static_cast<std::size_t>(ahead));
     if (peaks.empty()) return;
-    std::vector<FoundLine> found =
-        fitPeaks(points, blocks, scale, support_options, free, table, peaks, crew);
+    std::vector<FoundLine> found = fitPeaks(pool, scale, support_options, free, table, peaks, crew);
     const auto first = std::find_if(found.begin(), found.end(),
                                     [](const FoundLine& line) { return !line.support.empty(); });
     failures += static_cast<int>(first - found.begin());
@@ -102,9 +97,8 @@ void extractGreedily(const std::vector<WallPoint>& points, const PointBlocks& bl
 }
 
 // Walls at heights with much fewer points than the rest, octave by octave of their density.
-void extractThinParts(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                      const WallScale& scale, const HeightDensity& density,
-                      const WallLineOptions& options, TaskCrew& crew,
+void extractThinParts(const std::vector<WallPoint>& points, const WallScale& scale,
+                      const HeightDensity& density, const WallLineOptions& options, TaskCrew& crew,
                       const std::vector<double>& locked, const std::vector<double>& all_around,
                       std::vector<char>& free, std::vector<FoundLine>& lines) {
   const double least = kThinnest * scale.density;
@@ -118,8 +112,8 @@ void extractThinParts(const std::vector<WallPoint>& points, const PointBlocks& b
     }
     const std::vector<char> before = free_there;
     if (!locked.empty())
-      extractGreedily(points, blocks, thin, options, crew, false, locked, free_there, lines);
-    extractGreedily(points, blocks, thin, options, crew, true, all_around, free_there, lines);
+      extractGreedily(points, thin, options, crew, false, locked, free_there, lines);
+    extractGreedily(points, thin, options, crew, true, all_around, free_there, lines);
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (before[i] != free_there[i]) free[i] = 0;
     }
@@ -129,8 +123,8 @@ void extractThinParts(const std::vector<WallPoint>& points, const PointBlocks& b
 // Facades with much fewer points than the others at the same heights, for they were seen from afar
 // or at a flat angle, octave by octave of their density. Clutter is as thin: a line needs a known
 // direction, and as many points as the least wall that was seen well.
-void extractThinFacades(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                        const WallScale& scale, const WallLineOptions& options, TaskCrew& crew,
+void extractThinFacades(const std::vector<WallPoint>& points, const WallScale& scale,
+                        const WallLineOptions& options, TaskCrew& crew,
                         const std::vector<double>& locked, std::vector<char>& free,
                         std::vector<FoundLine>& lines) {
   const double least = options.min_area * scale.density;
@@ -139,7 +133,7 @@ void extractThinFacades(const std::vector<WallPoint>& points, const PointBlocks&
     thin.density = kThinMiddle * most * scale.density;
     std::vector<char> free_there = free;
     std::vector<FoundLine> found;
-    extractGreedily(points, blocks, thin, options, crew, false, locked, free_there, found);
+    extractGreedily(points, thin, options, crew, false, locked, free_there, found);
     for (FoundLine& facade : found) {
       if (static_cast<double>(facade.support.size()) < least) continue;
       for (const int i : facade.support) free[static_cast<std::size_t>(i)] = 0;
@@ -214,10 +208,9 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
     all_around[static_cast<std::size_t>(a)] = 2.0 * M_PI * a / kFreeAngles;
 
   TaskCrew crew(threadsFor(options.threads));
-  const PointBlocks blocks(points);
   std::vector<char> free(points.size(), 1);
   std::vector<FoundLine> free_lines;
-  extractGreedily(points, blocks, scale, options, crew, true, all_around, free, free_lines);
+  extractGreedily(points, scale, options, crew, true, all_around, free, free_lines);
 
   std::vector<double> oriented;
   if (options.steps.locked_directions) {
@@ -229,17 +222,16 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
   std::fill(free.begin(), free.end(), 1);
   std::vector<FoundLine> lines;
   if (!oriented.empty()) {
-    extractGreedily(points, blocks, scale, options, crew, false, oriented, free, lines);
+    extractGreedily(points, scale, options, crew, false, oriented, free, lines);
   }
-  extractGreedily(points, blocks, scale, options, crew, true, all_around, free, lines);
+  extractGreedily(points, scale, options, crew, true, all_around, free, lines);
   const HeightDensity density(points, scale, options.threads);
   if (options.steps.thin_heights)
-    extractThinParts(points, blocks, scale, density, options, crew, oriented, all_around, free,
-                     lines);
+    extractThinParts(points, scale, density, options, crew, oriented, all_around, free, lines);
   if (options.steps.thin_facades && !oriented.empty())
-    extractThinFacades(points, blocks, scale, options, crew, oriented, free, lines);
+    extractThinFacades(points, scale, options, crew, oriented, free, lines);
   if (options.steps.short_walls && !oriented.empty())
-    extractShortWalls(points, blocks, scale, density, options, oriented, free, lines);
+    extractShortWalls(points, scale, density, options, oriented, free, lines);
 
   std::stable_sort(lines.begin(), lines.end(), [](const FoundLine& a, const FoundLine& b) {
     return a.line.support > b.line.support;

@@ -23,12 +23,22 @@ struct LineStretch {
   double s_max = std::numeric_limits<double>::infinity();
 };
 
-/// The points that may be of a line whose first guess this is, ascending: near the stretch of it,
-/// and with normals within `kVoteAngle` of its own. \param free of each point, whether it is of no
-/// line yet
-std::vector<int> candidatesFor(const std::vector<WallPoint>& points, const PointBlocks& blocks,
-                               const std::vector<char>& free, const WallLine& line, double noise,
-                               const LineStretch& stretch = {});
+/// The points that a search begins with, those of no line yet: the longer the search for all lines
+/// goes on, the fewer they are.
+struct PointPool {
+  /// \param free of each point, whether it is of no line yet
+  PointPool(const std::vector<WallPoint>& all, const std::vector<char>& free);
+
+  const std::vector<WallPoint>& points;
+  std::vector<int> numbers;  ///< of those in the pool, ascending
+  PointBlocks blocks;        ///< of these
+};
+
+/// The points of a pool that may be of a line whose first guess this is, ascending: near the
+/// stretch of it, and with normals within `kVoteAngle` of its own. \param free of each point,
+/// whether it is of no line yet
+std::vector<int> candidatesFor(const PointPool& pool, const std::vector<char>& free,
+                               const WallLine& line, double noise, const LineStretch& stretch = {});
 
 /// Whether a point lies within `across` of the line, where that has support or a little beyond it,
 /// and its normal agrees.

@@ -13,6 +13,8 @@ namespace storey::detail {
 class PointBlocks {
  public:
   explicit PointBlocks(const std::vector<WallPoint>& points);
+  /// Of the points of these numbers; block by block it is places in this list that are told.
+  PointBlocks(const std::vector<WallPoint>& points, const std::vector<int>& numbers);
 
   std::size_t size() const { return circles_.size(); }
   std::size_t begin(std::size_t block) const { return block * kLength; }
@@ -43,6 +45,9 @@ class PointBlocks {
     Eigen::Vector2d center;
     double radius;
   };
+
+  template <typename PositionOf>
+  void enclose(const PositionOf& positionOf);
 
   std::size_t num_points_;
   std::vector<Circle> circles_;
