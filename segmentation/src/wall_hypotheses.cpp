@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kSameDirection = 0.07;  // rad, 4 degrees: as good a guess as any between
 constexpr double kMinCrossing = 0.26;    // rad, 15 degrees: flatter lines close nothing
-constexpr std::size_t kMaxHypotheses = 30;
+constexpr std::size_t kMaxBetween = 10;  // lines that join ends, of each kind
+constexpr std::size_t kMaxThrough = 30;  // lines through ends that are left alone
 
 double sineBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return std::abs(a.x() * b.y() - a.y() * b.x());
@@ -35,8 +36,13 @@ std::vector<Eigen::Vector2d> directionsOf(const std::vector<WallLine>& walls) {
 
 struct Hypothesis {
   PlanLine line;
-  double height;  // over which walls end there, of both
+  double height;         // over which walls end there, of both
+  std::size_t turn = 0;  // how many likelier ones the same end has
 };
+
+bool isLikelier(const Hypothesis& a, const Hypothesis& b) {
+  return a.turn != b.turn ? a.turn < b.turn : a.height > b.height;
+}
 
 class Hypotheses {
  public:
@@ -54,9 +60,9 @@ class Hypotheses {
   }
 
   std::vector<PlanLine> make() {
-    addAll(betweenEnds(true));
-    addAll(betweenEnds(false));
-    addAll(throughEnds());
+    addAll(betweenEnds(true), kMaxBetween);
+    addAll(betweenEnds(false), kMaxBetween);
+    addAll(throughEnds(), kMaxThrough);
     return lines_;
   }
 
@@ -100,33 +106,34 @@ class Hypotheses {
         for (const Eigen::Vector2d& normal : known ? directions_ : std::vector{own}) {
           if (!crosses(normal, a.normal) || !crosses(normal, b.normal)) continue;
           if (std::abs(normal.dot(between)) > kEndReach * noise_) continue;
-          found.push_back(
-              {{normal, 0.5 * normal.dot(a.place + b.place), true}, std::min(a.height, b.height)});
+          found.push_back({{normal, 0.5 * normal.dot(a.place + b.place), true},
+                           std::min(a.height, b.height),
+                           0});
         }
       }
     }
     return found;
   }
 
+  // The commonest direction first, and a line for each end before any has two.
   std::vector<Hypothesis> throughEnds() const {
     std::vector<Hypothesis> found;
     for (const WallEnd& end : open_) {
       if (isClosed(end)) continue;
+      std::size_t turn = 0;
       for (const Eigen::Vector2d& normal : directions_) {
         if (!crosses(normal, end.normal)) continue;
-        found.push_back({{normal, normal.dot(end.place), true}, end.height});
+        found.push_back({{normal, normal.dot(end.place), true}, end.height, turn++});
       }
     }
     return found;
   }
 
-  void addAll(std::vector<Hypothesis> found) {
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Hypothesis& a, const Hypothesis& b) { return a.height > b.height; });
+  void addAll(std::vector<Hypothesis> found, std::size_t most) {
+    std::stable_sort(found.begin(), found.end(), isLikelier);
     std::vector<PlanLine> added;
     for (const Hypothesis& h : found) {
-      if (lines_.size() + added.size() >= kMaxHypotheses || added.size() >= kMaxHypotheses / 3)
-        break;
+      if (added.size() >= most) break;
       const bool known = std::any_of(added.begin(), added.end(), [&](const PlanLine& line) {
         return line.normal == h.line.normal &&
                std::abs(line.offset - h.line.offset) < kEndReach * noise_;

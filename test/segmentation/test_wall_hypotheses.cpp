@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 
 #include "wall_samples.h"
@@ -131,6 +132,38 @@ TEST(WallHypotheses, AnEndAloneGetsLinesOfTheOtherDirections) {
   const double reach = detail::kEndReach * sampling().noise;
   const Eigen::Vector2d end(0.0, 0.0);
   EXPECT_LT(std::min(std::abs(lines[0].across(end)), std::abs(lines[1].across(end))), reach);
+}
+
+TEST(WallHypotheses, EachOfManyEndsAloneGetsALineBeforeAnyHasTwo) {
+  // An octagon below, and above it walls by themselves, each at heights of its own so that none
+  // joins another: 16 ends, each with three directions to go on in, more than there are lines.
+  std::vector<WallPoint> points;
+  std::mt19937 random(10);
+  WallSampling heights = sampling();
+  heights.z_max = 5.0;
+  Corners octagon;
+  for (int i = 0; i < 8; ++i) {
+    octagon.emplace_back(20.0 * std::cos(0.25 * M_PI * (i + 0.5)),
+                         20.0 * std::sin(0.25 * M_PI * (i + 0.5)));
+  }
+  for (std::size_t i = 0; i < octagon.size(); ++i) {
+    addWall(octagon[i], octagon[(i + 1) % octagon.size()], heights, random, points);
+  }
+  Corners ends;
+  for (int i = 0; i < 8; ++i) {
+    heights.z_min = 6.0 + 6.0 * i;
+    heights.z_max = heights.z_min + 5.5;
+    ends.emplace_back(0.3 * i * i - 10.0, 2.1 * i - 7.0);
+    ends.emplace_back(ends.back() + Eigen::Vector2d(8.0 + 0.7 * i, 0.0));
+    addWall(ends[ends.size() - 2], ends.back(), heights, random, points);
+  }
+  const std::vector<PlanLine> lines = hypothesesFor(points);
+  EXPECT_EQ(lines.size(), 30U);
+  for (const Eigen::Vector2d& end : ends) {
+    EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [&](const PlanLine& line) {
+      return std::abs(line.across(end)) < detail::kEndReach * sampling().noise;
+    })) << end.transpose();
+  }
 }
 
 TEST(WallHypotheses, HolesWithoutUprightOutlinesMakeNone) {
