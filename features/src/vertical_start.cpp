@@ -161,7 +161,7 @@ Eigen::Vector3d refineByNormals(const Vectors3d& normals, const Eigen::Vector3d&
                                 int num_threads) {
   // Some of the normals lead to where all need but a round or two.
   const Eigen::Vector3d near =
-      convergeOnNormals(everyNth(normals, kScoredNormals), start, num_threads);
+      convergeOnNormals(everyNth(normals, kScoredNormals), start, 1);  // too few for more
   return convergeOnNormals(normals, near, num_threads);
 }
 
