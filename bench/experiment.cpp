@@ -14,7 +14,7 @@
 
 #include "bench/isolation.h"
 #include "bench/shown_truth.h"
-#include "io/cloud_offset.h"
+#include "io/cloud_reader.h"
 #include "io/failure.h"
 #include "io/model_io.h"
 #include "reconstruct/pipeline.h"
@@ -31,26 +31,20 @@ using Eigen::Vector3d;
 constexpr std::size_t kSurfaceSamples = 1;
 constexpr int kColumnsPerSide = 512;
 
-/// The cloud as the reader would give it. Equal points, which the reader would drop, do not occur
-/// among points with continuous noise.
+/// The cloud as the reader would give it.
 io::LoadedCloud toLoaded(const synth::SyntheticCloud& cloud, bool with_normals) {
-  std::vector<double> coordinates;
-  for (const Vector3d& p : cloud.positions) {
-    coordinates.insert(coordinates.end(), p.data(), p.data() + 3);
-  }
-  io::LoadedCloud loaded;
-  loaded.format = "generated";
-  loaded.declared = cloud.size();
-  loaded.has_normals = with_normals;
-  loaded.offset = io::chooseOffset(coordinates);
-  loaded.cloud.reset(new pcl::PointCloud<pcl::PointNormal>);
+  io::RawCloud raw;
+  raw.format = "generated";
+  raw.declared = cloud.size();
+  raw.has_normal_fields = with_normals;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3f p = (cloud.positions[i] - loaded.offset).cast<float>();
-    const Eigen::Vector3f n =
-        with_normals ? cloud.normals[i].cast<float>() : Eigen::Vector3f(Eigen::Vector3f::Zero());
-    loaded.cloud->push_back({p.x(), p.y(), p.z(), n.x(), n.y(), n.z()});
+    raw.positions.insert(raw.positions.end(), cloud.positions[i].data(),
+                         cloud.positions[i].data() + 3);
+    if (!with_normals) continue;
+    const Eigen::Vector3f normal = cloud.normals[i].cast<float>();
+    raw.normals.insert(raw.normals.end(), normal.data(), normal.data() + 3);
   }
-  return loaded;
+  return io::conditionPoints(raw);
 }
 
 double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/command_line.h"
 
+#include <malloc.h>
 #include <pcl/console/print.h>
 
 #include <boost/program_options.hpp>
@@ -16,6 +17,15 @@ namespace storey::cli {
 namespace {
 
 namespace po = boost::program_options;
+
+// What one stage frees the next one takes again. Given back to the system in between, every page of
+// it would be cleared and mapped anew: an eighth of the time of a large cloud.
+void keepFreedMemory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+#endif
+}
 
 std::string shortest(double value) {
   char text[32];
@@ -219,6 +229,7 @@ void CommandLine::fail(const std::string& reason) const {
 }
 
 int runMain(const char* program, const std::function<int()>& body) {
+  keepFreedMemory();
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   return io::runMain(program, body);
 }

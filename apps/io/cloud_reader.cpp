@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/cloud_reader.h"
 
+#include <storey/filters/detail/distinct_positions.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <limits>
+#include <utility>
 
 #include "io/cloud_offset.h"
 #include "io/failure.h"
 #include "io/input_file.h"
 #include "io/line_of_sight.h"
-#include "io/point_index.h"
 #include "io/raw_cloud.h"
 
 namespace storey::io {
@@ -40,44 +43,41 @@ void mergeNormal(const std::array<float, 3>& normal, pcl::PointNormal& point) {
   point.normal_z = normal[2];
 }
 
-/// The position in local coordinates; nothing if they are too far out.
-std::optional<PointIndex::Position> localPosition(const RawCloud& raw, std::size_t i,
-                                                  const Eigen::Vector3d& offset) {
-  const Eigen::Vector3d local = Eigen::Map<const Eigen::Vector3d>(&raw.positions[3 * i]) - offset;
-  if (!(local.cwiseAbs().maxCoeff() < kMaxLocalCoordinate)) return std::nullopt;
-  const Eigen::Vector3f position = local.cast<float>() + Eigen::Vector3f::Zero();  // -0 becomes 0
-  return PointIndex::Position{position.x(), position.y(), position.z()};
-}
-
-void addPoint(const RawCloud& raw, std::size_t i, const PointIndex::Position& position,
-              PointIndex& index, LoadedCloud& loaded) {
-  const std::array<float, 3> normal = unitNormal(raw, i);
-  const std::uint32_t known = index.findOrAdd(position);
-  if (known < loaded.cloud->size()) {
-    ++loaded.collapsed_duplicates;
-    mergeNormal(normal, (*loaded.cloud)[known]);
-    return;
+/// In local coordinates; NaN for what is too far out.
+std::vector<Eigen::Vector3f> localPositions(const RawCloud& raw, const Eigen::Vector3d& offset) {
+  std::vector<Eigen::Vector3f> positions(raw.size());
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    const Eigen::Vector3d local = Eigen::Map<const Eigen::Vector3d>(&raw.positions[3 * i]) - offset;
+    positions[i] = local.cwiseAbs().maxCoeff() < kMaxLocalCoordinate
+                       ? Eigen::Vector3f(local.cast<float>() + Eigen::Vector3f::Zero())  // -0: 0
+                       : Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
   }
-  loaded.cloud->points.emplace_back(position[0], position[1], position[2], normal[0], normal[1],
-                                    normal[2]);
+  return positions;
 }
 
-void addPoints(const RawCloud& raw, LoadedCloud& loaded) {
-  PointIndex index(raw.size());
-  std::array<std::optional<PointIndex::Position>, kAhead> ahead;
-  for (std::size_t i = 0; i < raw.size() + kAhead; ++i) {
-    std::optional<PointIndex::Position>& position = ahead[i % kAhead];
-    if (i >= kAhead) {
-      if (position) {
-        addPoint(raw, i - kAhead, *position, index, loaded);
-      } else {
-        ++loaded.dropped_non_finite;
-      }
+/// The distinct positions in their order, and which of them each point is at.
+std::vector<pcl::index_t> addPositions(const RawCloud& raw, unsigned int threads,
+                                       LoadedCloud& loaded) {
+  storey::detail::DistinctPositions distinct =
+      storey::detail::findDistinctPositions(localPositions(raw, loaded.offset), threads);
+  distinct.multiplicity = {};  // the points need the memory
+  loaded.cloud->points.reserve(distinct.cloud->size());
+  for (const pcl::PointXYZ& p : *distinct.cloud) loaded.cloud->points.emplace_back(p.x, p.y, p.z);
+  return std::move(distinct.id_of_input);
+}
+
+void addPoints(const RawCloud& raw, unsigned int threads, LoadedCloud& loaded) {
+  const std::vector<pcl::index_t> place = addPositions(raw, threads, loaded);
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const pcl::index_t soon = place[std::min(i + kAhead, place.size() - 1)];
+    if (soon >= 0) __builtin_prefetch(&loaded.cloud->points[static_cast<std::size_t>(soon)], 1);
+    if (place[i] < 0) {
+      ++loaded.dropped_non_finite;
+    } else if (raw.has_normal_fields) {
+      mergeNormal(unitNormal(raw, i), loaded.cloud->points[static_cast<std::size_t>(place[i])]);
     }
-    if (i >= raw.size()) continue;
-    position = localPosition(raw, i, loaded.offset);
-    if (position) index.prefetch(*position);
   }
+  loaded.collapsed_duplicates = place.size() - loaded.dropped_non_finite - loaded.cloud->size();
 }
 
 void judgeNormals(const RawCloud& raw, LoadedCloud& loaded) {
@@ -102,29 +102,33 @@ LoadedCloud readCloud(const std::string& path, const CloudReaderOptions& options
   raw.thin(limits.max_points);
   file.checkMemory(raw.size() * limits.bytes_per_point, limits.max_memory,
                    std::to_string(raw.size()) + " points");
-  LoadedCloud loaded = conditionCloud(raw, file);
+  LoadedCloud loaded = conditionCloud(raw, file, options.threads);
   loaded.turned_normals = turned;
   return loaded;
 }
 
-LoadedCloud conditionCloud(const RawCloud& raw, const InputFile& file) {
-  LoadedCloud loaded;
-  loaded.cloud.reset(new pcl::PointCloud<pcl::PointNormal>);
-  loaded.format = raw.format;
-  loaded.declared = raw.declared;
-  loaded.thinned_out = raw.declared - raw.size();
-  loaded.offset = chooseOffset(raw.positions);
-  loaded.cloud->points.reserve(raw.size());
-  addPoints(raw, loaded);
-  loaded.cloud->width = static_cast<std::uint32_t>(loaded.cloud->points.size());
-  loaded.cloud->height = 1;
-  loaded.cloud->is_dense = true;
+LoadedCloud conditionCloud(const RawCloud& raw, const InputFile& file, unsigned int threads) {
+  LoadedCloud loaded = conditionPoints(raw, threads);
   if (loaded.cloud->size() < kMinDistinctPoints) {
     file.fail("has " + std::to_string(loaded.cloud->size()) + " distinct finite points of " +
                   std::to_string(raw.declared) + ", at least " +
                   std::to_string(kMinDistinctPoints) + " are needed",
               "check the export of the cloud");
   }
+  return loaded;
+}
+
+LoadedCloud conditionPoints(const RawCloud& raw, unsigned int threads) {
+  LoadedCloud loaded;
+  loaded.cloud.reset(new pcl::PointCloud<pcl::PointNormal>);
+  loaded.format = raw.format;
+  loaded.declared = raw.declared;
+  loaded.thinned_out = raw.declared - raw.size();
+  loaded.offset = chooseOffset(raw.positions);
+  addPoints(raw, threads, loaded);
+  loaded.cloud->width = static_cast<std::uint32_t>(loaded.cloud->points.size());
+  loaded.cloud->height = 1;
+  loaded.cloud->is_dense = true;
   judgeNormals(raw, loaded);
   return loaded;
 }

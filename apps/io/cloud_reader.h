@@ -24,9 +24,10 @@ constexpr double kMinShareOfNormals = 0.99;
 
 /// A cloud as every later stage may rely on it: finite, without duplicates, close to the origin.
 struct LoadedCloud {
-  /// Local coordinates (the file's less `offset`) in the order of the file. All positions are
-  /// finite and no two are equal; `is_dense` is true. Normals have length 1 or, where the file has
-  /// none that can be used, 0. Without `has_normals` all are 0.
+  /// Local coordinates (the file's less `offset`), along a Morton curve: neighbours are near each
+  /// other in memory, and the order is that of the positions, not that of the file. All positions
+  /// are finite and no two are equal; `is_dense` is true. Normals have length 1 or, where the file
+  /// has none that can be used, 0. Without `has_normals` all are 0.
   pcl::PointCloud<pcl::PointNormal>::Ptr cloud;
   /// Subtracted in double before the cast to float, so that `point + offset` is the file's
   /// coordinate. 0 on an axis where the coordinates are small already, else a multiple of a power
@@ -36,7 +37,7 @@ struct LoadedCloud {
   std::size_t declared = 0;              ///< points that the file declares, all of them read
   std::size_t thinned_out = 0;           ///< of them, for `ReadLimits::max_points`
   std::size_t dropped_non_finite = 0;    ///< NaN, infinite, or too far out for float distances
-  std::size_t collapsed_duplicates = 0;  ///< further points at the place of an earlier one
+  std::size_t collapsed_duplicates = 0;  ///< further points at the place of another
   std::size_t zero_normals = 0;          ///< normals of the file that cannot be used
   std::size_t turned_normals = 0;        ///< to the photos that saw their points
   std::string format;                    ///< e.g. "ply binary_little_endian float64"
@@ -45,6 +46,7 @@ struct LoadedCloud {
 struct CloudReaderOptions {
   std::uint64_t max_bytes = kDefaultMaxFileBytes;  ///< largest file that is read, in bytes
   ReadLimits limits;
+  unsigned int threads = 1;  ///< that order the points, 0: all cores
 };
 
 /// Reads a PCD (ascii, binary, binary_compressed) or PLY (ascii, binary of both byte orders) file,
@@ -57,6 +59,10 @@ struct CloudReaderOptions {
 LoadedCloud readCloud(const std::string& path, const CloudReaderOptions& options = {});
 
 /// The second half of it: what the stages may rely on, of the points of a file.
-LoadedCloud conditionCloud(const RawCloud& raw, const InputFile& file);
+/// \throws Failure (BadInput) where they are too few
+LoadedCloud conditionCloud(const RawCloud& raw, const InputFile& file, unsigned int threads = 1);
+
+/// The same for any number of points.
+LoadedCloud conditionPoints(const RawCloud& raw, unsigned int threads = 1);
 
 }  // namespace storey::io

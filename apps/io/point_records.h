@@ -91,8 +91,8 @@ struct RawCloud {
 };
 
 /// Bytes of memory that reading takes for each point at its peak: raw position (24) and normal
-/// (12), the finished point (48), and the table that finds duplicates (12 + 16).
-constexpr std::uint64_t kLoaderBytesPerPoint = 112;
+/// (12), the distinct position (16), where it stands (4), and the finished point (48).
+constexpr std::uint64_t kLoaderBytesPerPoint = 104;
 
 /// What reading may take.
 struct ReadLimits {

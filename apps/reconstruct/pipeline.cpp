@@ -21,6 +21,7 @@ io::CloudReaderOptions readerOptions(const Options& options) {
   io::CloudReaderOptions reader;
   reader.limits.max_memory = io::availableMemory();
   reader.limits.bytes_per_point = kBytesPerPoint;
+  reader.threads = options.threads;
   if (options.max_points > 0) {
     reader.limits.max_points = static_cast<std::uint64_t>(options.max_points);
   }
@@ -43,7 +44,9 @@ class Pipeline {
           [&] { return setUpright(cloud, attitude, options_.threads, result_.attitude); });
     stage("orientation",
           [&] { return orientOutwards(cloud, attitude, options_.threads, result_.attitude); });
-    stage("scale", [&] { return measureScale(cloud, attitude.noise, result_.attitude.scale); });
+    stage("scale", [&] {
+      return measureScale(cloud, attitude.noise, options_.threads, result_.attitude.scale);
+    });
     observers_.cloud("01_upright", cloud);
     stage("planar",
           [&] { return measureConfidence(cloud, options_.kept_share, options_.threads); });

@@ -109,7 +109,8 @@ std::string orientOutwards(StageCloud& cloud, const AttitudeOptions& options, un
                 found.side_reason.c_str());
 }
 
-std::string measureScale(StageCloud& cloud, double given_noise, CloudScale& scale) {
+std::string measureScale(StageCloud& cloud, double given_noise, unsigned int threads,
+                         CloudScale& scale) {
   requireNormals(cloud);
   std::vector<Eigen::Vector3f> positions;
   std::vector<Eigen::Vector3f> normals;
@@ -120,7 +121,7 @@ std::string measureScale(StageCloud& cloud, double given_noise, CloudScale& scal
     }
   }
   if (positions.empty()) refuse(cloud, "none of its normals is level: no walls", kWallsHint);
-  scale = storey::detail::estimateCloudScale(positions, kDefaultScaleSeed);
+  scale = storey::detail::estimateCloudScale(positions, kDefaultScaleSeed, threads);
   if (given_noise > 0.0 && given_noise < storey::detail::kLeastWallNoise * scale.extent) {
     refuse(cloud, format("is too large for --noise %g", given_noise),
            format("give at least %.2g, a hundred-thousandth of its extent",
@@ -137,7 +138,7 @@ std::string measureScale(StageCloud& cloud, double given_noise, CloudScale& scal
 void ensureScale(StageCloud& cloud) {
   if (cloud.state.noise > 0.0 && cloud.state.density > 0.0) return;
   CloudScale scale;
-  measureScale(cloud, cloud.state.noise, scale);
+  measureScale(cloud, cloud.state.noise, 1, scale);
 }
 
 }  // namespace storey::stages

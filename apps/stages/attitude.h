@@ -45,7 +45,8 @@ std::string setUpright(StageCloud& cloud, const AttitudeOptions& options, unsign
                        Attitude& found);
 std::string orientOutwards(StageCloud& cloud, const AttitudeOptions& options, unsigned int threads,
                            Attitude& found);
-std::string measureScale(StageCloud& cloud, double given_noise, CloudScale& scale);
+std::string measureScale(StageCloud& cloud, double given_noise, unsigned int threads,
+                         CloudScale& scale);
 
 /// Measures noise and density of a cloud that does not tell them.
 void ensureScale(StageCloud& cloud);

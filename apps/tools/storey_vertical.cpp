@@ -26,7 +26,7 @@ std::string prepare(stages::StageCloud& cloud, const stages::AttitudeOptions& op
   std::string lines = estimateMissingNormals(cloud, options, threads, found);
   lines = "normals " + lines + "\n" + setUpright(cloud, options, threads, found);
   lines += "\n" + orientOutwards(cloud, options, threads, found);
-  return lines + "\n" + measureScale(cloud, options.noise, found.scale);
+  return lines + "\n" + measureScale(cloud, options.noise, threads, found.scale);
 }
 
 }  // namespace

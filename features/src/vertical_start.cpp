@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/features/detail/vertical_kernels.h>
+#include <storey/filters/detail/chunks.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -41,33 +42,57 @@ bool isBorneOut(const Vectors3d& normals, const Eigen::Vector3d& guess, double b
   return walls + level >= kGuessGoodAs * best_score;
 }
 
-Eigen::Vector3d convergeOnNormals(const Vectors3d& normals, const Eigen::Vector3d& start) {
+// The normal equations of the turn that takes the wall normals across `up`, and how far off they
+// are.
+struct TurnEquations {
+  Eigen::Matrix2d a = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d b = Eigen::Vector2d::Zero();
+  double noise = 0.0;
+
+  TurnEquations& operator+=(const TurnEquations& other) {
+    a += other.a;
+    b += other.b;
+    noise += other.noise;
+    return *this;
+  }
+};
+
+TurnEquations equationsAt(const Vectors3d& normals, const Eigen::Vector3d& up,
+                          const Eigen::Matrix<double, 3, 2>& frame, int num_threads) {
+  const auto add = [&](std::size_t begin, std::size_t end, std::vector<TurnEquations>& sums) {
+    TurnEquations e;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double lean = normals[i].dot(up);
+      const double t = lean / kNormalGate;
+      if (t * t < 1.0) {
+        const double weight = (1.0 - t * t) * (1.0 - t * t);
+        const Eigen::Vector2d h = frame.transpose() * normals[i];
+        e.a += weight * h * h.transpose();
+        e.b -= weight * lean * h;
+        e.noise += weight * lean * lean;
+      }
+    }
+    sums[0] += e;
+  };
+  const std::vector<TurnEquations> zero(1);
+  return sumByChunks(normals.size(), static_cast<unsigned int>(num_threads), zero, add)[0];
+}
+
+Eigen::Vector3d convergeOnNormals(const Vectors3d& normals, const Eigen::Vector3d& start,
+                                  int num_threads) {
   // Converges to the smallest eigenvector of the wall normals. Where all walls face one way, that
   // is drawn at random from the plane across; so `up` moves only in directions in which the normals
   // spread by more than their noise, which is how much they spread along `up`.
   Eigen::Vector3d up = start;
   for (int round = 0; round < kNormalRounds; ++round) {
     const Eigen::Matrix<double, 3, 2> frame = tangentFrame(up);
-    Eigen::Matrix2d a = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d b = Eigen::Vector2d::Zero();
-    double noise = 0.0;
-    for (const Eigen::Vector3d& n : normals) {
-      const double lean = n.dot(up);
-      const double t = lean / kNormalGate;
-      if (t * t < 1.0) {
-        const double weight = (1.0 - t * t) * (1.0 - t * t);
-        const Eigen::Vector2d h = frame.transpose() * n;
-        a += weight * h * h.transpose();
-        b -= weight * lean * h;
-        noise += weight * lean * lean;
-      }
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(a);
+    const TurnEquations e = equationsAt(normals, up, frame, num_threads);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(e.a);
     Eigen::Vector2d turn = Eigen::Vector2d::Zero();
     for (int k = 0; k < 2; ++k) {
-      if (solver.eigenvalues()[k] > kSpreadOverNoise * noise && solver.eigenvalues()[k] > 0.0) {
+      if (solver.eigenvalues()[k] > kSpreadOverNoise * e.noise && solver.eigenvalues()[k] > 0.0) {
         const Eigen::Vector2d axis = solver.eigenvectors().col(k);
-        turn += axis * (axis.dot(b) / solver.eigenvalues()[k]);
+        turn += axis * (axis.dot(e.b) / solver.eigenvalues()[k]);
       }
     }
     up = (up + frame * turn).normalized();
@@ -132,9 +157,12 @@ VerticalStart findVerticalStart(const Vectors3d& normals, const Eigen::Vector3d&
   return start;
 }
 
-Eigen::Vector3d refineByNormals(const Vectors3d& normals, const Eigen::Vector3d& start) {
+Eigen::Vector3d refineByNormals(const Vectors3d& normals, const Eigen::Vector3d& start,
+                                int num_threads) {
   // Some of the normals lead to where all need but a round or two.
-  return convergeOnNormals(normals, convergeOnNormals(everyNth(normals, kScoredNormals), start));
+  const Eigen::Vector3d near =
+      convergeOnNormals(everyNth(normals, kScoredNormals), start, 1);  // too few for more
+  return convergeOnNormals(normals, near, num_threads);
 }
 
 Eigen::Vector3d refineByHorizontals(const Vectors3d& normals, const Eigen::Vector3d& start,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/features/detail/vertical_kernels.h>
+#include <storey/filters/detail/chunks.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -50,6 +51,22 @@ struct ColumnMoments {
     products += Eigen::Vector3d(d.y() * d.z(), d.x() * d.z(), d.x() * d.y());
   }
 
+  // What another part of the same column holds.
+  void add(const ColumnMoments& other) {
+    if (count == 0.0) {
+      origin = other.origin;
+    }
+    const Eigen::Vector3d d = other.origin - origin;
+    const Eigen::Vector3d& s = other.sum;
+    const double n = other.count;
+    count += n;
+    sum += s + n * d;
+    squares += other.squares + 2.0 * d.cwiseProduct(s) + n * d.cwiseProduct(d);
+    products += other.products + Eigen::Vector3d(d.y() * s.z() + s.y() * d.z() + n * d.y() * d.z(),
+                                                 d.x() * s.z() + s.x() * d.z() + n * d.x() * d.z(),
+                                                 d.x() * s.y() + s.x() * d.y() + n * d.x() * d.y());
+  }
+
   Eigen::Matrix3d covariance() const {
     Eigen::Matrix3d c;
     c << squares.x(), products.z(), products.y(), products.z(), squares.y(), products.x(),
@@ -73,6 +90,13 @@ class Columns {
       cells_.push_back(cell);
     }
     return columns_[column];
+  }
+
+  // After those that were met before.
+  void add(const Columns& others) {
+    for (std::size_t column = 0; column < others.columns_.size(); ++column) {
+      of(others.cells_[column]).add(others.columns_[column]);
+    }
   }
 
   const std::vector<ColumnMoments>& all() const { return columns_; }
@@ -110,22 +134,29 @@ double quantile(std::vector<double> values, double share) {
 
 // The columns that wall points stand in, by the first of their points.
 Columns columnsOf(const Vectors3d& positions, const Vectors3d& normals, const Eigen::Vector3d& up,
-                  double cell) {
+                  double cell, int num_threads) {
   Eigen::Matrix3d to_local;
   to_local << tangentFrame(up).transpose(), up.transpose();
   constexpr double kMiddle = 2147483648.0;  // of the numbers of cells
   const double cells_a_length = 1.0 / cell;
+  const auto threads = static_cast<unsigned int>(num_threads);
+  std::vector<Columns> parts(Chunks(positions.size()).count());
+  forEachChunk(positions.size(), threads, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (std::abs(normals[i].dot(up)) >= kWallGate) {
+        continue;
+      }
+      const Eigen::Vector3d point = to_local * positions[i];
+      const double x = point.x() * cells_a_length + kMiddle;
+      const double y = point.y() * cells_a_length + kMiddle;
+      if (x >= 0.0 && y >= 0.0 && std::max(x, y) < 2.0 * kMiddle) {
+        parts[c].of(static_cast<std::uint64_t>(x) << 32 | static_cast<std::uint64_t>(y)).add(point);
+      }
+    }
+  });
   Columns columns;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (std::abs(normals[i].dot(up)) >= kWallGate) {
-      continue;
-    }
-    const Eigen::Vector3d point = to_local * positions[i];
-    const double x = point.x() * cells_a_length + kMiddle;
-    const double y = point.y() * cells_a_length + kMiddle;
-    if (x >= 0.0 && y >= 0.0 && std::max(x, y) < 2.0 * kMiddle) {
-      columns.of(static_cast<std::uint64_t>(x) << 32 | static_cast<std::uint64_t>(y)).add(point);
-    }
+  for (const Columns& part : parts) {
+    columns.add(part);
   }
   return columns;
 }
@@ -149,9 +180,9 @@ bool fitColumn(const ColumnMoments& moments, Column& column) {
 }
 
 std::vector<Column> fitColumns(const Vectors3d& positions, const Vectors3d& normals,
-                               const Eigen::Vector3d& up, double cell) {
+                               const Eigen::Vector3d& up, double cell, int num_threads) {
   std::vector<Column> columns;
-  const Columns found = columnsOf(positions, normals, up, cell);
+  const Columns found = columnsOf(positions, normals, up, cell, num_threads);
   for (const ColumnMoments& moments : found.all()) {
     Column column;
     if (moments.count >= kFewestPoints && fitColumn(moments, column)) {
@@ -226,11 +257,11 @@ Eigen::Vector2d robustTurn(const std::vector<Column>& columns,
 }  // namespace
 
 VerticalFit refineByPositions(const Vectors3d& positions, const Vectors3d& normals,
-                              const Eigen::Vector3d& up, double cell) {
+                              const Eigen::Vector3d& up, double cell, int num_threads) {
   VerticalFit fit;
   fit.up = up;
   for (int round = 0; round < kRounds && cell > 0.0; ++round) {
-    const std::vector<Column> columns = fitColumns(positions, normals, fit.up, cell);
+    const std::vector<Column> columns = fitColumns(positions, normals, fit.up, cell, num_threads);
     fit.patches = static_cast<int>(columns.size());
     if (columns.empty()) {
       break;

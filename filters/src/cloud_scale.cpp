@@ -212,9 +212,10 @@ void thin(DistinctPositions& positions, std::mt19937& random) {
 
 }  // namespace
 
-CloudScale estimateCloudScale(const std::vector<Eigen::Vector3f>& input, std::uint32_t seed) {
+CloudScale estimateCloudScale(const std::vector<Eigen::Vector3f>& input, std::uint32_t seed,
+                              unsigned int threads) {
   CloudScale scale;
-  DistinctPositions positions = findDistinctPositions(input);
+  DistinctPositions positions = findDistinctPositions(input, threads);
   if (positions.cloud->size() < 2) {
     return scale;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -39,16 +40,28 @@ struct Cube {
   Eigen::Vector3d high = Eigen::Vector3d::Constant(-kLargestCoordinate);
 };
 
-Cube cubeAround(const std::vector<Eigen::Vector3f>& positions) {
-  Eigen::Array3f low = Eigen::Array3f::Constant(kLargestCoordinate);
-  Eigen::Array3f high = -low;
-  for (const Eigen::Vector3f& p : positions) {
-    if (isSearchable(p)) {
-      low = low.min(p.array());
-      high = high.max(p.array());
+Cube cubeAround(const std::vector<Eigen::Vector3f>& positions, unsigned int threads) {
+  const Chunks chunks(positions.size());
+  std::vector<Eigen::Array3f> lows(chunks.count(), Eigen::Array3f::Constant(kLargestCoordinate));
+  std::vector<Eigen::Array3f> highs(chunks.count(), Eigen::Array3f::Constant(-kLargestCoordinate));
+  forEachChunk(positions.size(), threads, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    Eigen::Array3f low = lows[c];
+    Eigen::Array3f high = highs[c];
+    for (std::size_t i = begin; i < end; ++i) {
+      if (isSearchable(positions[i])) {
+        low = low.min(positions[i].array());
+        high = high.max(positions[i].array());
+      }
     }
+    lows[c] = low;
+    highs[c] = high;
+  });
+  Cube cube;
+  for (std::size_t c = 0; c < chunks.count(); ++c) {
+    cube.low = cube.low.cwiseMin(lows[c].matrix().cast<double>());
+    cube.high = cube.high.cwiseMax(highs[c].matrix().cast<double>());
   }
-  return {low.cast<double>(), high.cast<double>()};
+  return cube;
 }
 
 // The part that holds all but a few of the positions on each axis, where the whole is much longer:
@@ -91,22 +104,38 @@ Cube withoutOutliers(const pcl::PointCloud<pcl::PointXYZ>& distinct, Cube cube) 
   return cube;
 }
 
-std::vector<Entry> codesOf(const std::vector<Eigen::Vector3f>& positions, const Cube& cube) {
+// Of a list in chunks: where the part of each begins in what all of them leave, and the end.
+std::vector<std::size_t> beginsOf(const std::vector<std::size_t>& counts) {
+  std::vector<std::size_t> begins(counts.size() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), begins.begin() + 1);
+  return begins;
+}
+
+std::vector<Entry> codesOf(const std::vector<Eigen::Vector3f>& positions, const Cube& cube,
+                           unsigned int threads) {
   const double side = (cube.high - cube.low).maxCoeff();
   constexpr double kLast = (1 << kMortonBits) - 1;
   const double scale = side > 0.0 ? kLast / side : 0.0;
-  std::vector<Entry> entries;
-  entries.reserve(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (isSearchable(positions[i])) {
+  std::vector<std::size_t> counts(Chunks(positions.size()).count());
+  forEachChunk(positions.size(), threads, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    counts[c] = static_cast<std::size_t>(
+        std::count_if(positions.begin() + static_cast<std::ptrdiff_t>(begin),
+                      positions.begin() + static_cast<std::ptrdiff_t>(end), isSearchable));
+  });
+  const std::vector<std::size_t> begins = beginsOf(counts);
+  std::vector<Entry> entries(begins.back());
+  forEachChunk(positions.size(), threads, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    std::size_t next = begins[c];
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!isSearchable(positions[i])) continue;
       const Eigen::Array3d cell =
           ((positions[i].cast<double>() - cube.low) * scale).array().max(0.0).min(kLast);
       const std::uint64_t code = spreadBits(static_cast<std::uint64_t>(cell.x())) |
                                  spreadBits(static_cast<std::uint64_t>(cell.y())) << 1 |
                                  spreadBits(static_cast<std::uint64_t>(cell.z())) << 2;
-      entries.push_back({code, static_cast<pcl::index_t>(i)});
+      entries[next++] = {code, static_cast<pcl::index_t>(i)};
     }
-  }
+  });
   return entries;
 }
 
@@ -142,12 +171,7 @@ void sortByDigit(std::vector<Entry>& entries, int shift, unsigned int threads,
 // By code, within a code by position: first by the leading digits, then what shares these.
 std::vector<Entry> mortonOrder(const std::vector<Eigen::Vector3f>& positions, const Cube& cube,
                                unsigned int threads) {
-  std::vector<Entry> entries = codesOf(positions, cube);
-  std::vector<Entry> sorted;
-  constexpr int kRest = 3 * kMortonBits - kDigitsSorted * kDigitBits;
-  for (int digit = 0; digit < kDigitsSorted; ++digit) {
-    sortByDigit(entries, kRest + digit * kDigitBits, threads, sorted);
-  }
+  std::vector<Entry> entries = codesOf(positions, cube, threads);
   const auto before = [&positions](const Entry& a, const Entry& b) {
     if (a.code != b.code) {
       return a.code < b.code;
@@ -157,6 +181,14 @@ std::vector<Entry> mortonOrder(const std::vector<Eigen::Vector3f>& positions, co
     return std::make_tuple(p.x(), p.y(), p.z(), a.input) <
            std::make_tuple(q.x(), q.y(), q.z(), b.input);
   };
+  if (std::is_sorted(entries.begin(), entries.end(), before)) {
+    return entries;  // the programs keep their points in this order
+  }
+  constexpr int kRest = 3 * kMortonBits - kDigitsSorted * kDigitBits;
+  std::vector<Entry> sorted;
+  for (int digit = 0; digit < kDigitsSorted; ++digit) {
+    sortByDigit(entries, kRest + digit * kDigitBits, threads, sorted);
+  }
   for (std::size_t begin = 0; begin < entries.size();) {
     std::size_t end = begin + 1;
     while (end < entries.size() && entries[end].code >> kRest == entries[begin].code >> kRest) {
@@ -172,24 +204,43 @@ std::vector<Entry> mortonOrder(const std::vector<Eigen::Vector3f>& positions, co
 }
 
 DistinctPositions distinctInOrder(const std::vector<Eigen::Vector3f>& positions,
-                                  const std::vector<Entry>& order) {
-  DistinctPositions result;
-  result.cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
-  result.cloud->reserve(order.size());
-  result.multiplicity.reserve(order.size());
-  result.id_of_input.assign(positions.size(), -1);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Entry& e = order[i];
+                                  const std::vector<Entry>& order, unsigned int threads) {
+  const auto positionOf = [&](std::size_t i) -> const Eigen::Vector3f& {
     const Entry& soon = order[std::min(i + kPrefetched, order.size() - 1)];
     __builtin_prefetch(&positions[static_cast<std::size_t>(soon.input)]);  // in no order
-    const Eigen::Vector3f& p = positions[static_cast<std::size_t>(e.input)];
-    if (result.cloud->empty() || result.cloud->back().getVector3fMap() != p) {
-      result.cloud->push_back(pcl::PointXYZ(p.x(), p.y(), p.z()));
-      result.multiplicity.push_back(0);
+    return positions[static_cast<std::size_t>(order[i].input)];
+  };
+  const auto isNew = [&](std::size_t i) {
+    return i == 0 || order[i].code != order[i - 1].code ||
+           positions[static_cast<std::size_t>(order[i].input)] !=
+               positions[static_cast<std::size_t>(order[i - 1].input)];
+  };
+  std::vector<std::size_t> counts(Chunks(order.size()).count());
+  forEachChunk(order.size(), threads, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) counts[c] += isNew(i) ? 1 : 0;
+  });
+  const std::vector<std::size_t> begins = beginsOf(counts);
+  DistinctPositions result;
+  result.cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  result.cloud->resize(begins.back());
+  std::vector<std::uint32_t> firsts(begins.back() + 1,
+                                    static_cast<std::uint32_t>(order.size()));  // in the order
+  result.id_of_input.assign(positions.size(), -1);
+  forEachChunk(order.size(), threads, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    std::size_t next = begins[c];
+    for (std::size_t i = begin; i < end; ++i) {
+      const Eigen::Vector3f& p = positionOf(i);
+      if (isNew(i)) {
+        (*result.cloud)[next].getVector3fMap() = p;
+        firsts[next++] = static_cast<std::uint32_t>(i);
+      }
+      result.id_of_input[static_cast<std::size_t>(order[i].input)] =
+          static_cast<pcl::index_t>(next) - 1;
     }
-    ++result.multiplicity.back();
-    result.id_of_input[static_cast<std::size_t>(e.input)] =
-        static_cast<pcl::index_t>(result.cloud->size()) - 1;
+  });
+  result.multiplicity.resize(begins.back());
+  for (std::size_t id = 0; id < begins.back(); ++id) {
+    result.multiplicity[id] = firsts[id + 1] - firsts[id];
   }
   return result;
 }
@@ -207,14 +258,14 @@ bool areCrowded(const DistinctPositions& distinct, const std::vector<Entry>& ord
 
 DistinctPositions findDistinctPositions(const std::vector<Eigen::Vector3f>& positions,
                                         unsigned int threads) {
-  const Cube cube = cubeAround(positions);
+  const Cube cube = cubeAround(positions, threads);
   const std::vector<Entry> order = mortonOrder(positions, cube, threads);
-  const DistinctPositions distinct = distinctInOrder(positions, order);
+  const DistinctPositions distinct = distinctInOrder(positions, order, threads);
   if (!areCrowded(distinct, order)) {
     return distinct;
   }
-  return distinctInOrder(positions,
-                         mortonOrder(positions, withoutOutliers(*distinct.cloud, cube), threads));
+  return distinctInOrder(
+      positions, mortonOrder(positions, withoutOutliers(*distinct.cloud, cube), threads), threads);
 }
 
 }  // namespace storey::detail

@@ -150,13 +150,11 @@ double estimateWallRelief(const std::vector<Eigen::Vector3f>& positions,
                               }),
                near.end());
     if (near.size() < kMinPoints) continue;
-    if (near.size() > kMaxPoints) {  // the first ones
-      std::nth_element(near.begin(), near.begin() + kMaxPoints, near.end());
-      near.resize(kMaxPoints);
-    }
     std::sort(near.begin(), near.end());
+    const std::size_t taken = std::min(near.size(), kMaxPoints);  // from all over the place
     std::vector<Eigen::Vector2d> points;
-    for (const std::uint32_t j : near) {
+    for (std::size_t t = 0; t < taken; ++t) {
+      const std::uint32_t j = near[t * near.size() / taken];
       points.push_back((positions[j] - positions[i]).head<2>().cast<double>());
     }
     const double scatter = scatterAbout(points, normal.cast<double>(), kGate * noise);

@@ -15,17 +15,23 @@ std::uint64_t hashOf(const GridCell& cell) {
   return hash;
 }
 
+// Inline, where the operator of arrays calls a function.
+bool areSame(const GridCell& a, const GridCell& b) {
+  return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
+}
+
 }  // namespace
 
 std::size_t GridCells::add(const GridCell& cell) {
-  if (!cells_.empty() && cells_.back() == cell) return cells_.size() - 1;
+  if (!cells_.empty() && areSame(cells_[last_], cell)) return last_;
   if (2 * (cells_.size() + 1) > slots_.size()) grow();
   const std::size_t slot = slotOf(cell);
   if (slots_[slot] == 0) {
     cells_.push_back(cell);
     slots_[slot] = static_cast<std::uint32_t>(cells_.size());
   }
-  return slots_[slot] - 1;
+  last_ = slots_[slot] - 1;
+  return last_;
 }
 
 std::size_t GridCells::find(const GridCell& cell) const {
@@ -38,7 +44,7 @@ std::size_t GridCells::find(const GridCell& cell) const {
 std::size_t GridCells::slotOf(const GridCell& cell) const {
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = hashOf(cell) & mask;
-  while (slots_[slot] != 0 && cells_[slots_[slot] - 1] != cell) slot = (slot + 1) & mask;
+  while (slots_[slot] != 0 && !areSame(cells_[slots_[slot] - 1], cell)) slot = (slot + 1) & mask;
   return slot;
 }
 

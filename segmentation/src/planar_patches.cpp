@@ -20,6 +20,8 @@ constexpr double kCellSide = 2.0;     // cells of the support of a wall: where w
 
 constexpr double kFirstFit = 16.0;  // points
 
+constexpr std::uint32_t kNowhere = 0xffffffff;  // as a cell or a patch
+
 struct Plane {
   Eigen::Vector3d center;
   Eigen::Vector3d normal;
@@ -51,43 +53,48 @@ class PatchGrowing {
  public:
   PatchGrowing(const std::vector<OrientedPoint>& points, const std::vector<char>& counts,
                const WallScale& scale)
-      : side_(kCellSide * supportCellSize(scale)), reach_(kReach * scale.noise) {
-    std::vector<std::size_t> cell_of(points.size(), GridCells::kNone);
+      : num_points_(points.size()),
+        side_(kCellSide * supportCellSize(scale)),
+        reach_(kReach * scale.noise) {
+    std::vector<std::uint32_t> cell_of(points.size(), kNowhere);
     std::vector<std::size_t> held;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (counts[i] == 0) continue;
       const Eigen::Vector3d p = points[i].position.cast<double>();
-      cell_of[i] =
-          cells_.add({cellAlong(p.x(), side_), cellAlong(p.y(), side_), cellAlong(p.z(), side_)});
+      cell_of[i] = static_cast<std::uint32_t>(
+          cells_.add({cellAlong(p.x(), side_), cellAlong(p.y(), side_), cellAlong(p.z(), side_)}));
       held.resize(cells_.size(), 0);
       ++held[cell_of[i]];
     }
     sortByCell(points, cell_of, held);
     reached_.assign(cells_.size(), PlanarPatches::kNone);
-    result_.of.assign(points.size(), PlanarPatches::kNone);
   }
 
   PlanarPatches find() {
     for (const std::size_t cell : seeds()) grow(cell);
-    for (std::size_t k = 0; k < patch_.size(); ++k) result_.of[number_[k]] = patch_[k];
+    points_ = {};  // the result needs the memory
+    result_.of.assign(num_points_, PlanarPatches::kNone);
+    for (std::size_t k = 0; k < patch_.size(); ++k) {
+      if (patch_[k] != kNowhere) result_.of[number_[k]] = patch_[k];
+    }
     return std::move(result_);
   }
 
  private:
   // The points cell by cell, in memory too: cells are visited again and again.
-  void sortByCell(const std::vector<OrientedPoint>& points, const std::vector<std::size_t>& cell_of,
-                  const std::vector<std::size_t>& held) {
+  void sortByCell(const std::vector<OrientedPoint>& points,
+                  const std::vector<std::uint32_t>& cell_of, const std::vector<std::size_t>& held) {
     first_.assign(held.size() + 1, 0);
     std::partial_sum(held.begin(), held.end(), first_.begin() + 1);
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
     points_.resize(first_.back());
     number_.resize(first_.back());
-    patch_.assign(first_.back(), PlanarPatches::kNone);
+    patch_.assign(first_.back(), kNowhere);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (cell_of[i] == GridCells::kNone) continue;
+      if (cell_of[i] == kNowhere) continue;
       const std::size_t place = next[cell_of[i]]++;
       points_[place] = points[i];
-      number_[place] = i;
+      number_[place] = static_cast<std::uint32_t>(i);
     }
   }
   double heldIn(std::size_t cell) const {
@@ -99,7 +106,7 @@ class PatchGrowing {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double count = 0.0;
     for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-      if (patch_[i] != PlanarPatches::kNone) continue;
+      if (patch_[i] != kNowhere) continue;
       const Eigen::Vector3d n = points_[i].normal.cast<double>();
       sum += n.dot(sum) < 0.0 ? Eigen::Vector3d(-n) : n;
       count += 1.0;
@@ -124,11 +131,11 @@ class PatchGrowing {
   double take(std::size_t cell, const Plane& plane, std::size_t patch, Moments& moments) {
     double taken = 0.0;
     for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-      if (patch_[i] != PlanarPatches::kNone) continue;
+      if (patch_[i] != kNowhere) continue;
       const Eigen::Vector3d p = points_[i].position.cast<double>();
       if (std::abs(plane.normal.dot(p - plane.center)) > reach_) continue;
       if (std::abs(plane.normal.dot(points_[i].normal.cast<double>())) < kAgreement) continue;
-      patch_[i] = patch;
+      patch_[i] = static_cast<std::uint32_t>(patch);
       moments.add(p);
       taken += 1.0;
     }
@@ -142,7 +149,7 @@ class PatchGrowing {
     plane.normal.normalize();
     Moments moments;
     for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-      if (patch_[i] == PlanarPatches::kNone) moments.add(points_[i].position.cast<double>());
+      if (patch_[i] == kNowhere) moments.add(points_[i].position.cast<double>());
     }
     plane.center = moments.center();
     return moments.count >= kMinInCell;
@@ -183,13 +190,14 @@ class PatchGrowing {
     }
   }
 
+  std::size_t num_points_;
   double side_;
   double reach_;
   GridCells cells_;
   std::vector<std::size_t> first_;     // of each cell, of the points that follow
   std::vector<OrientedPoint> points_;  // those that count, cell by cell
-  std::vector<std::size_t> number_;    // of each among all points
-  std::vector<std::size_t> patch_;     // of each, `PlanarPatches::kNone` while it is free
+  std::vector<std::uint32_t> number_;  // of each among all points
+  std::vector<std::uint32_t> patch_;   // of each, `kNowhere` while it is free
   std::vector<std::size_t> reached_;   // the last patch that did, of each cell
   PlanarPatches result_;
 };

@@ -10,6 +10,7 @@
 #include "io/cloud_reader.h"
 #include "io/cloud_writer.h"
 #include "io/failure.h"
+#include "loaded_points.h"
 #include "temporary_files.h"
 
 namespace storey {
@@ -17,6 +18,7 @@ namespace {
 
 using io::LoadedCloud;
 using io::readCloud;
+using test::pointAt;
 using test::TemporaryDirectory;
 
 using Points = std::vector<Eigen::Vector3d>;
@@ -71,9 +73,9 @@ double maxError(const LoadedCloud& loaded, const Points& expected) {
   EXPECT_EQ(loaded.cloud->size(), expected.size());
   if (loaded.cloud->size() != expected.size()) return 1e300;
   double error = 0.0;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    const Eigen::Vector3d p = (*loaded.cloud)[i].getVector3fMap().cast<double>() + loaded.offset;
-    error = std::max(error, (p - expected[i]).norm());
+  for (const Eigen::Vector3d& point : expected) {
+    const Eigen::Vector3f local = pointAt(loaded, point).getVector3fMap();
+    error = std::max(error, (local.cast<double>() + loaded.offset - point).norm());
   }
   return error;
 }
@@ -186,10 +188,10 @@ TEST(CloudReader, WhatPclWritesIsReadBack) {
     EXPECT_EQ(loaded.format, format);
     EXPECT_TRUE(loaded.has_normals);
     ASSERT_EQ(loaded.cloud->size(), cloud.size());
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      ASSERT_EQ((*loaded.cloud)[i].getVector3fMap(), cloud[i].getVector3fMap()) << i;
-      ASSERT_TRUE((*loaded.cloud)[i].getNormalVector3fMap().isApprox(
-          cloud[i].getNormalVector3fMap(), 1e-6f));
+    for (const auto& point : cloud) {
+      const auto& found = pointAt(loaded, point.getVector3fMap().template cast<double>());
+      ASSERT_EQ(found.getVector3fMap(), point.getVector3fMap());
+      ASSERT_TRUE(found.getNormalVector3fMap().isApprox(point.getNormalVector3fMap(), 1e-6f));
     }
   };
   ASSERT_EQ(writer.writeASCII(path, cloud, 9), 0);  // 9 digits tell all floats apart
@@ -212,8 +214,8 @@ TEST(CloudReader, DuplicatesAreCollapsedInLinearTime) {
       readCloud(directory.write("c.ply", binaryPly<float>(points, "float", false)));
   EXPECT_EQ(loaded.cloud->size(), 3u);
   EXPECT_EQ(loaded.collapsed_duplicates, 999997u);
-  EXPECT_EQ((*loaded.cloud)[1].x, 4.0f);  // in the order of their first coming
-  EXPECT_FALSE(std::signbit((*loaded.cloud)[2].x));
+  EXPECT_EQ(pointAt(loaded, {4, 5, 6}).x, 4.0f);
+  EXPECT_FALSE(std::signbit(pointAt(loaded, {0, 0, 0}).x));
 }
 
 TEST(CloudReader, NonFinitePointsAreDroppedAndCounted) {
@@ -236,10 +238,10 @@ TEST(CloudReader, NormalsAreScaledToUnitLengthUnderEitherName) {
                             "0 0 0 0 3 4\n1 0 0 1e-30 0 0\n0 1 0 -1 0 0\n", 3)));
     ASSERT_TRUE(loaded.has_normals);
     EXPECT_EQ(loaded.zero_normals, 0u);
-    EXPECT_FLOAT_EQ((*loaded.cloud)[0].normal_y, 0.6f);
-    EXPECT_FLOAT_EQ((*loaded.cloud)[0].normal_z, 0.8f);
-    EXPECT_EQ((*loaded.cloud)[1].normal_x, 1.0f);
-    EXPECT_EQ((*loaded.cloud)[2].normal_x, -1.0f);
+    EXPECT_FLOAT_EQ(pointAt(loaded, {0, 0, 0}).normal_y, 0.6f);
+    EXPECT_FLOAT_EQ(pointAt(loaded, {0, 0, 0}).normal_z, 0.8f);
+    EXPECT_EQ(pointAt(loaded, {1, 0, 0}).normal_x, 1.0f);
+    EXPECT_EQ(pointAt(loaded, {0, 1, 0}).normal_x, -1.0f);
   }
 }
 
@@ -255,9 +257,30 @@ TEST(CloudReader, AFewBadNormalsAreZeroedMoreMakeACloudWithoutNormals) {
         directory.write("n.ply", asciiCloud({"x", "y", "z", "nx", "ny", "nz"}, rows, 200)));
     EXPECT_EQ(loaded.zero_normals, static_cast<std::size_t>(num_bad));
     EXPECT_EQ(loaded.has_normals, num_bad <= 2);  // 1 % of 200
-    EXPECT_TRUE((*loaded.cloud)[0].getNormalVector3fMap().allFinite());
-    EXPECT_EQ((*loaded.cloud)[199].normal_z, num_bad <= 2 ? 1.0f : 0.0f);
+    EXPECT_TRUE(pointAt(loaded, {0, 0, 0}).getNormalVector3fMap().allFinite());
+    EXPECT_EQ(pointAt(loaded, {199, 199 % 7, 0}).normal_z, num_bad <= 2 ? 1.0f : 0.0f);
   }
+}
+
+// Neighbours on the curve are neighbours in the building, whatever the order of the file.
+TEST(CloudReader, TheOrderOfTheFileDoesNotMatter) {
+  const TemporaryDirectory directory;
+  Points points = boxPoints(5000, {0, 0, 0});
+  points.push_back(points[7]);
+  const LoadedCloud one = readCloud(directory.write("a.ply", binaryPly<float>(points, "float", 0)));
+  std::shuffle(points.begin(), points.end(), std::mt19937(3));
+  const LoadedCloud two = readCloud(directory.write("b.ply", binaryPly<float>(points, "float", 0)));
+  ASSERT_EQ(one.cloud->size(), 5000u);
+  ASSERT_EQ(two.cloud->size(), 5000u);
+  double length = 0.0;
+  for (std::size_t i = 0; i < 5000; ++i) {
+    ASSERT_EQ((*one.cloud)[i].getVector3fMap(), (*two.cloud)[i].getVector3fMap()) << i;
+    if (i == 0) continue;
+    length += static_cast<double>(
+        ((*one.cloud)[i].getVector3fMap() - (*one.cloud)[i - 1].getVector3fMap()).norm());
+  }
+  // Two random points of the box are 18 apart; cubes of one point each have a side of 1.4.
+  EXPECT_LT(length / 4999.0, 4.0);
 }
 
 TEST(CloudReader, AnIncompleteNormalIsNone) {

@@ -8,6 +8,7 @@
 #include "io/cloud_reader.h"
 #include "io/failure.h"
 #include "io/model_io.h"
+#include "loaded_points.h"
 #include "malformed_files.h"
 #include "temporary_files.h"
 
@@ -27,7 +28,7 @@ std::string compare(const LoadedCloud& loaded, int num_points) {
   if (loaded.declared != static_cast<std::size_t>(num_points)) return "wrong number declared";
   if (loaded.cloud->size() != static_cast<std::size_t>(num_points)) return "wrong number of points";
   for (int i = 0; i < num_points; ++i) {
-    const Eigen::Vector3f point = (*loaded.cloud)[static_cast<std::size_t>(i)].getVector3fMap();
+    const Eigen::Vector3f point = test::pointAt(loaded, samplePoint(i)).getVector3fMap();
     if (point.cast<double>() + loaded.offset != samplePoint(i)) return "wrong point";
   }
   return "ok";

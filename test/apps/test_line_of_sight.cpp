@@ -10,6 +10,7 @@
 #include "io/cameras/camera_writer.h"
 #include "io/cloud_reader.h"
 #include "io/failure.h"
+#include "loaded_points.h"
 #include "malformed_files.h"
 #include "temporary_files.h"
 
@@ -116,7 +117,8 @@ void expectOutwards(const Scene& scene, const LoadedCloud& loaded) {
   ASSERT_EQ(loaded.cloud->size(), scene.points.size());
   EXPECT_TRUE(loaded.has_normals);
   for (std::size_t i = 0; i < scene.points.size(); ++i) {
-    const Eigen::Vector3d normal = (*loaded.cloud)[i].getNormalVector3fMap().cast<double>();
+    const Eigen::Vector3d normal =
+        test::pointAt(loaded, scene.points[i]).getNormalVector3fMap().cast<double>();
     EXPECT_GT(normal.dot(scene.outwards[i]), 0.999) << i;
   }
 }
@@ -211,8 +213,9 @@ TEST(Imports, LasKeepsMillimetresFarFromTheOrigin) {
   ASSERT_EQ(loaded.cloud->size(), 3U);
   EXPECT_FALSE(loaded.has_normals);
   for (int i = 0; i < 3; ++i) {
-    const double x = (*loaded.cloud)[static_cast<std::size_t>(i)].x + loaded.offset.x();
-    EXPECT_NEAR(x, test::samplePoint(i).x() + 2.0 + easting, 1e-5);
+    Eigen::Vector3d point = test::samplePoint(i);
+    point.x() += 2.0 + easting;
+    EXPECT_NEAR(test::pointAt(loaded, point).x + loaded.offset.x(), point.x(), 1e-5);
   }
 }
 
@@ -222,7 +225,7 @@ TEST(Imports, TextHasNormalsWhereThreeColumnsAreUnitVectors) {
     const LoadedCloud loaded = readCloud(directory.write(name, text));
     EXPECT_EQ(loaded.cloud->size(), 3U) << name;
     if (!loaded.has_normals) return Eigen::Vector3f(Eigen::Vector3f::Zero());
-    return Eigen::Vector3f((*loaded.cloud)[1].getNormalVector3fMap());
+    return Eigen::Vector3f(test::pointAt(loaded, {1, 0, 0}).getNormalVector3fMap());
   };
   const Eigen::Vector3f n(0.6f, 0.0f, 0.8f);
   EXPECT_TRUE(normalOf("a.xyz", "0 0 0 1 0 0\n1 0 0 .6 0 .8\n0 1 0 0 0 1\n").isApprox(n));

@@ -24,7 +24,9 @@ struct CloudScale {
 constexpr std::uint32_t kDefaultScaleSeed = 1;
 
 namespace detail {
-CloudScale estimateCloudScale(const std::vector<Eigen::Vector3f>& positions, std::uint32_t seed);
+/// \param threads 0: all cores
+CloudScale estimateCloudScale(const std::vector<Eigen::Vector3f>& positions, std::uint32_t seed,
+                              unsigned int threads = 1);
 }  // namespace detail
 
 /// Measures the scale of a cloud from 1500 neighbourhoods drawn at random.

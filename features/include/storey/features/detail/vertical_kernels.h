@@ -32,7 +32,8 @@ VerticalStart findVerticalStart(const Vectors3d& normals, const Eigen::Vector3d&
 
 /// Turns `up` until the wall normals lie across it: iterated weighted least squares of n.up over
 /// |n.up| < 0.35 (Tukey's weights).
-Eigen::Vector3d refineByNormals(const Vectors3d& normals, const Eigen::Vector3d& up);
+Eigen::Vector3d refineByNormals(const Vectors3d& normals, const Eigen::Vector3d& up,
+                                int num_threads);
 
 /// What the fit to positions found.
 struct VerticalFit {
@@ -47,7 +48,7 @@ struct VerticalFit {
 /// until it lies in all of them (least squares weighted by the accuracy of each plane's lean,
 /// Tukey's weights against what is no wall). Repeated, because columns lean with `up`.
 VerticalFit refineByPositions(const Vectors3d& positions, const Vectors3d& normals,
-                              const Eigen::Vector3d& up, double cell);
+                              const Eigen::Vector3d& up, double cell, int num_threads);
 
 /// Turns `up` along `axis` until the normals within 25 degrees of it are centred there. Unchanged
 /// if those are below 5 % of all.

@@ -34,6 +34,7 @@ bool VerticalDirectionEstimation<PointT, NormalT>::compute(Eigen::Vector3d& up) 
     this->deinitCompute();
     return false;
   }
+  const double column = columnSize();  // before the points take memory
   const detail::OrientedPoints points = [this] {
     if constexpr (std::is_same_v<PointT, NormalT>) {
       return detail::gatherOrientedPoints(*this->input_, normals_ ? *normals_ : *this->input_,
@@ -48,11 +49,11 @@ bool VerticalDirectionEstimation<PointT, NormalT>::compute(Eigen::Vector3d& up) 
               getClassName().c_str(), points.size());
     return false;
   }
-  const auto start =
-      detail::findVerticalStart(points.normals, guess, given, detail::threadsFor(threads_));
-  up_ = detail::refineByNormals(points.normals, start.up);
+  const int threads = detail::threadsFor(threads_);
+  const auto start = detail::findVerticalStart(points.normals, guess, given, threads);
+  up_ = detail::refineByNormals(points.normals, start.up, threads);
   const detail::VerticalFit fit =
-      detail::refineByPositions(points.positions, points.normals, up_, columnSize());
+      detail::refineByPositions(points.positions, points.normals, up_, column, threads);
   up_ = fit.up;
   if (fit.one_direction) {
     PCL_WARN(
@@ -98,7 +99,8 @@ double VerticalDirectionEstimation<PointT, NormalT>::columnSize() const {
   if (column_size_ > 0.0) {
     return column_size_;
   }
-  const CloudScale scale = estimateCloudScale(*this->input_);
+  const CloudScale scale =
+      detail::estimateCloudScale(detail::positionsOf(*this->input_), kDefaultScaleSeed, threads_);
   const double size =
       std::max(detail::kColumnNoise * scale.noise, detail::kColumnSpacing * scale.spacing);
   return size > 0.0 ? size : detail::kColumnExtent * scale.extent;

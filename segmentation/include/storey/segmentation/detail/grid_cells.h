@@ -36,6 +36,7 @@ class GridCells {
   void grow();
 
   std::vector<GridCell> cells_;
+  std::size_t last_ = 0;              // of those added: neighbours often follow each other
   std::vector<std::uint32_t> slots_;  // number + 1 of the cell there, 0: free
 };
 

@@ -50,6 +50,9 @@ LabelPoints collectOrientedPoints(const pcl::PointCloud<PointT>& cloud,
                                   const pcl::PointCloud<NormalT>& normals,
                                   const pcl::Indices& indices) {
   LabelPoints result;
+  result.indices.reserve(indices.size());
+  result.places.reserve(indices.size());
+  result.normals.reserve(indices.size());
   for (std::size_t place = 0; place < indices.size(); ++place) {
     const auto i = static_cast<std::size_t>(indices[place]);
     const PointT& p = cloud[i];

@@ -45,9 +45,9 @@ class PositionSearch {
       const PointT& p = cloud[static_cast<std::size_t>(i)];
       positions.emplace_back(p.x, p.y, p.z);
     }
-    const DistinctPositions distinct = findDistinctPositions(positions, threads);
+    DistinctPositions distinct = findDistinctPositions(positions, threads);
     sites_ = distinct.cloud;
-    site_of_point_.assign(distinct.id_of_input.begin(), distinct.id_of_input.end());
+    site_of_point_ = std::move(distinct.id_of_input);
     if (sites_->empty()) {
       return;
     }
@@ -67,7 +67,7 @@ class PositionSearch {
   std::size_t numSites() const { return sites_->size(); }
 
   /// The site of the j-th of the points.
-  std::size_t siteOf(std::size_t j) const { return site_of_point_[j]; }
+  std::size_t siteOf(std::size_t j) const { return static_cast<std::size_t>(site_of_point_[j]); }
 
   /// The k sites nearest to a site (itself one of them) with their squared distances; fewer if
   /// there are no more. Safe in several threads at once.
@@ -105,7 +105,7 @@ class PositionSearch {
   typename pcl::PointCloud<PointT>::ConstPtr given_sites_;
   std::unique_ptr<NeighborSearch> search_;
   pcl::PointCloud<pcl::PointXYZ>::ConstPtr sites_;
-  std::vector<std::size_t> site_of_point_;
+  pcl::Indices site_of_point_;
 };
 
 }  // namespace storey::detail

@@ -143,12 +143,12 @@ void DominantDirectionClustering<PointT, NormalT>::averageNormals(
     const std::vector<std::size_t>& sample, detail::LabelPoints& points) const {
   constexpr double kSameFace = 0.5;  // cos 60 degrees: 4 deviations of 15 degrees
   const detail::PositionSearch<PointT> search(*this->input_, points.indices, tree_, threads_);
-  std::vector<Eigen::Vector3d> site_normals(search.numSites(), Eigen::Vector3d::Zero());
+  std::vector<Eigen::Vector3f> site_normals(search.numSites(), Eigen::Vector3f::Zero());
   for (std::size_t j = 0; j < points.size(); ++j) {
-    site_normals[search.siteOf(j)] += points.normals[j];
+    site_normals[search.siteOf(j)] += points.normals[j].cast<float>();
   }
   if (search.numSites() < points.size()) {
-    for (Eigen::Vector3d& normal : site_normals) {
+    for (Eigen::Vector3f& normal : site_normals) {
       normal.normalize();  // leaves zero alone
     }
   }
@@ -167,8 +167,11 @@ void DominantDirectionClustering<PointT, NormalT>::averageNormals(
       search.nearest(search.siteOf(j), smoothing_neighbors_, sites, squared);
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       for (const pcl::index_t site : sites) {
-        const Eigen::Vector3d& normal = site_normals[static_cast<std::size_t>(site)];
-        sum += normal.dot(points.normals[j]) >= kSameFace ? normal : Eigen::Vector3d::Zero();
+        const Eigen::Vector3d normal =
+            site_normals[static_cast<std::size_t>(site)].template cast<double>();
+        sum += normal.dot(points.normals[j]) >= kSameFace
+                   ? normal
+                   : Eigen::Vector3d(Eigen::Vector3d::Zero());
       }
       averages[static_cast<std::size_t>(q)] =
           sum.squaredNorm() > 0.0 ? sum.normalized() : points.normals[j];
