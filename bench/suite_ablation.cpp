@@ -18,7 +18,7 @@ The first %zu of the random buildings, clean and with all defects at once, by th
 
 )";
 
-constexpr std::size_t kBuildings = 10;
+constexpr std::size_t kBuildings = 20;
 constexpr double kWantedIou = 0.97;
 
 struct Variant {
