@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/filters/detail/chunks.h>
+#include <storey/surface/detail/short_edges.h>
 #include <storey/surface/extrusion.h>
 #include <storey/surface/face_support.h>
 #include <storey/surface/layerwise_model.h>
@@ -14,6 +15,7 @@ namespace {
 // A boundary lies in the slice that straddles it or in one of its neighbours.
 constexpr double kHeightSearchInSlices = 1.5;
 constexpr int kFirstRounds = 2;         // without panes, which are looked for afterwards
+constexpr double kShortEdge = 3.0;      // noise deviations: a face as narrow is noise of others
 constexpr double kMaxNoiseRatio = 2.0;  // of the walls' residual to the noise they were found with
 
 // The noise that the walls show: the residual of the wall in the middle, counted by points.
@@ -74,6 +76,7 @@ void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, Layer
   result.walls = fitWalls(layers, points, fit);  // now each point in the layer that it is of
   fit.noise = noiseOfWalls(result.walls, options.noise);
   if (options.steps.unseen_walls) fitUnseenWalls(layers, points, fit.noise, result.walls);
+  detail::dropShortEdges(layers, result.walls, kShortEdge * fit.noise);
   fit.max_shift = 0.5 * options.slice_thickness;
   result.levels = fitHeights(layers, points, fit);
   result.model = extrudeFloorplans(layers, options.grid);

@@ -10,8 +10,6 @@
 namespace storey::detail {
 namespace {
 
-constexpr double kMinTurn = 0.03;  // rad; where lines cross at less is not well known
-
 struct Line {
   Eigen::Vector2d normal;
   double offset;
@@ -82,7 +80,8 @@ void remove(std::size_t edge, FloorplanRing& ring, std::vector<Line>& lines) {
   lines.erase(lines.begin() + i);
 }
 
-// \return false if there is no such ring
+}  // namespace
+
 bool moveCorners(FloorplanRing& ring, const std::map<int, WallFit>& fits) {
   std::vector<Line> lines;
   for (std::size_t i = 0; i < ring.size(); ++i) lines.push_back(lineOf(ring, i, fits));
@@ -99,6 +98,8 @@ bool moveCorners(FloorplanRing& ring, const std::map<int, WallFit>& fits) {
     remove(shortestOf(tried, {edge, (edge + 1) % n, (edge + n - 1) % n}), tried, lines);
   }
 }
+
+namespace {
 
 void moveOrRelease(FloorplanRing& ring, const std::map<int, WallFit>& fits) {
   if (moveCorners(ring, fits)) return;

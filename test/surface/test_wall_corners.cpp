@@ -4,54 +4,17 @@
 
 #include <cmath>
 
+#include "ring_fits.h"
+
 namespace {
 
 using namespace storey;
-using Corners = std::vector<Eigen::Vector2d>;
+using namespace storey::test;
 
 const Corners kSquare = {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0}, {0.0, 10.0}};
 // The square, its corner at (10, 10) cut by the line x + y = 20 - cut, which is edge 2.
 Corners chamfered(double cut) {
   return {{0.0, 0.0}, {10.0, 0.0}, {10.0, 10.0 - cut}, {10.0 - cut, 10.0}, {0.0, 10.0}};
-}
-
-std::vector<FloorplanLayer> layerOf(const Corners& corners) {
-  FloorplanLayer layer;
-  layer.z_max = 3.0;
-  layer.plan.components.resize(1);
-  FloorplanRing& ring = layer.plan.components.front().outer;
-  ring.vertices = corners;
-  for (std::size_t i = 0; i < corners.size(); ++i) ring.edges.push_back({static_cast<int>(i)});
-  return {layer};
-}
-
-const FloorplanRing& ringOf(const std::vector<FloorplanLayer>& layers) {
-  return layers.front().plan.components.front().outer;
-}
-
-// The lines of the edges, each moved outwards.
-std::map<int, WallFit> fitsOf(const Corners& corners, const std::vector<double>& shifts) {
-  std::map<int, WallFit> fits;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector2d along = corners[(i + 1) % corners.size()] - corners[i];
-    WallFit& fit = fits[static_cast<int>(i)];
-    fit.normal = Eigen::Vector2d(along.y(), -along.x()).normalized();
-    fit.offset = fit.normal.dot(corners[i]) + shifts[i];
-  }
-  return fits;
-}
-
-std::vector<int> idsOf(const FloorplanRing& ring) {
-  std::vector<int> ids;
-  for (const FloorplanEdge& edge : ring.edges) ids.push_back(edge.wall);
-  return ids;
-}
-
-void expectCorners(const FloorplanRing& ring, const Corners& expected) {
-  ASSERT_EQ(ring.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_LT((ring.vertices[i] - expected[i]).norm(), 1e-12) << i;
-  }
 }
 
 TEST(MoveCorners, TakesThemToTheIntersectionsOfTheLines) {
