@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/filters/detail/chunks.h>
 #include <storey/surface/detail/short_edges.h>
+#include <storey/surface/detail/stacked_walls.h>
 #include <storey/surface/extrusion.h>
 #include <storey/surface/face_support.h>
 #include <storey/surface/layerwise_model.h>
@@ -15,6 +16,7 @@ namespace {
 // A boundary lies in the slice that straddles it or in one of its neighbours.
 constexpr double kHeightSearchInSlices = 1.5;
 constexpr int kFirstRounds = 2;         // without panes, which are looked for afterwards
+constexpr double kOneWall = 1.0;        // noise deviations between lines of one wall, at most
 constexpr double kShortEdge = 3.0;      // noise deviations: a face as narrow is noise of others
 constexpr double kMaxNoiseRatio = 2.0;  // of the walls' residual to the noise they were found with
 
@@ -74,6 +76,9 @@ void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, Layer
     result.upright = fitUpright(layers, points, options.noise, options.threads);
   setUpright(result.upright, options.threads, points);
   result.walls = fitWalls(layers, points, fit);  // now each point in the layer that it is of
+  if (detail::uniteStackedWalls(result.walls, kOneWall * options.noise, layers)) {
+    result.walls = fitWalls(layers, points, fit);
+  }
   fit.noise = noiseOfWalls(result.walls, options.noise);
   if (options.steps.unseen_walls) fitUnseenWalls(layers, points, fit.noise, result.walls);
   detail::dropShortEdges(layers, result.walls, kShortEdge * fit.noise);

@@ -80,6 +80,16 @@ void remove(std::size_t edge, FloorplanRing& ring, std::vector<Line>& lines) {
   lines.erase(lines.begin() + i);
 }
 
+// An edge of the wall that the one before it is of too; the number of edges if there is none.
+std::size_t goingOn(const FloorplanRing& ring) {
+  const std::size_t n = ring.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const int wall = ring.edges[i].wall;
+    if (wall >= 0 && wall == ring.edges[(i + n - 1) % n].wall) return i;
+  }
+  return n;
+}
+
 }  // namespace
 
 bool moveCorners(FloorplanRing& ring, const std::map<int, WallFit>& fits) {
@@ -87,8 +97,13 @@ bool moveCorners(FloorplanRing& ring, const std::map<int, WallFit>& fits) {
   for (std::size_t i = 0; i < ring.size(); ++i) lines.push_back(lineOf(ring, i, fits));
   FloorplanRing tried = ring;
   while (true) {
-    FloorplanRing moved = intersect(tried, lines);
     const std::size_t n = tried.size();
+    const std::size_t more = goingOn(tried);
+    if (more < n && n > 3) {
+      remove(more, tried, lines);
+      continue;
+    }
+    FloorplanRing moved = intersect(tried, lines);
     const std::size_t edge = shortestTurned(tried, moved);
     if (edge == n) {
       ring = std::move(moved);

@@ -61,6 +61,18 @@ TEST(MoveCorners, DropsAShortEdgeThatTurnsALongerOneAround) {
   EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{0, 1, -1, 4, 5}));
 }
 
+TEST(MoveCorners, EdgesOfOneWallThatFollowEachOtherAreOne) {
+  const Corners ring = {{10.0, 10.2}, {4.0, 10.1}, {0.0, 10.0}, {0.0, 0.0}, {10.0, 0.0}};
+  std::vector<FloorplanLayer> layers = layerOf(ring);
+  std::map<int, WallFit> fits = fitsOf(ring, {0.0, 0.0, 0.0, 0.0, 0.0});
+  fits[0].normal = {0.0, 1.0};
+  fits[0].offset = 10.1;
+  layers.front().plan.components.front().outer.edges[1].wall = 0;
+  detail::moveCorners(layers, fits);
+  expectCorners(ringOf(layers), {{10.0, 10.1}, {0.0, 10.1}, {0.0, 0.0}, {10.0, 0.0}});
+  EXPECT_EQ(idsOf(ringOf(layers)), (std::vector<int>{0, 2, 3, 4}));
+}
+
 TEST(MoveCorners, LeavesRingsAloneWhoseLongEdgesWouldTurnAround) {
   // A side of the square moved past the opposite one.
   std::vector<FloorplanLayer> layers = layerOf(kSquare);
