@@ -47,7 +47,8 @@ std::vector<Variant> variants() {
           {"panes", &S::panes},
           {"shared directions", &S::shared_directions},
           {"upright", &S::upright},
-          {"unseen walls", &S::unseen_walls}};
+          {"unseen walls", &S::unseen_walls},
+          {"facets dropped", &S::facets}};
 }
 
 double polygonsOff(const std::vector<Outcome>& outcomes) {

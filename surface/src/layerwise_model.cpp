@@ -76,12 +76,13 @@ void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, Layer
     result.upright = fitUpright(layers, points, options.noise, options.threads);
   setUpright(result.upright, options.threads, points);
   result.walls = fitWalls(layers, points, fit);  // now each point in the layer that it is of
-  if (detail::uniteStackedWalls(result.walls, kOneWall * options.noise, layers)) {
+  if (options.steps.facets &&
+      detail::uniteStackedWalls(result.walls, kOneWall * options.noise, layers)) {
     result.walls = fitWalls(layers, points, fit);
   }
   fit.noise = noiseOfWalls(result.walls, options.noise);
   if (options.steps.unseen_walls) fitUnseenWalls(layers, points, fit.noise, result.walls);
-  detail::dropShortEdges(layers, result.walls, kShortEdge * fit.noise);
+  if (options.steps.facets) detail::dropShortEdges(layers, result.walls, kShortEdge * fit.noise);
   fit.max_shift = 0.5 * options.slice_thickness;
   result.levels = fitHeights(layers, points, fit);
   result.model = extrudeFloorplans(layers, options.grid);

@@ -28,6 +28,7 @@ struct MethodSteps {
   bool shared_directions = true;  ///< walls that agree share one direction
   bool upright = true;            ///< the points turned by what walls lean by together
   bool unseen_walls = true;       ///< walls without points put where their neighbours end
+  bool facets = true;             ///< walls taken for two united, edges of noise dropped
 };
 
 }  // namespace storey::detail
