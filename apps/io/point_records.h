@@ -91,8 +91,10 @@ struct RawCloud {
 };
 
 /// Bytes of memory that reading takes for each point at its peak: raw position (24) and normal
-/// (12), the distinct position (16), where it stands (4), and the finished point (48).
-constexpr std::uint64_t kLoaderBytesPerPoint = 104;
+/// (12), the distinct position (16), where it stands (4), the finished point (48), and what the
+/// search for distinct positions took and leaves as holes that the finished points do not fit into
+/// (40, measured).
+constexpr std::uint64_t kLoaderBytesPerPoint = 144;
 
 /// What reading may take.
 struct ReadLimits {
