@@ -45,6 +45,7 @@ bool parseOptions(int argc, char** argv, Options& o) {
       "thin a larger cloud to about so many points while it is read: a sample at random, the "
       "same for the same cloud [0 = take all of them]");
   stages::declareAttitude(line, o.attitude);
+  stages::declareStructurePoints(line, o.structure_points);
   stages::declareKeptShare(line, o.kept_share);
   stages::declareMethod(line, o.method);
   stages::declareBlocks(line, o.blocks, o.simplicity);

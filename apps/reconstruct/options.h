@@ -21,6 +21,7 @@ struct Options {
   std::string output_directory;
   std::vector<exports::Format> formats;
   stages::AttitudeOptions attitude;
+  int structure_points = 0;  ///< to find the structure in; 0: derived
   double kept_share = stages::kDefaultKeptShare;
   Method method = Method::Building;
   stages::BlockOptions blocks;

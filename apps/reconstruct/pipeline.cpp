@@ -6,6 +6,7 @@
 
 #include "stages/classes.h"
 #include "stages/planar.h"
+#include "stages/sampling.h"
 #include "stages/stage_cloud_io.h"
 
 namespace storey::reconstruct {
@@ -40,6 +41,9 @@ class Pipeline {
     stage("normals", [&] {
       return estimateMissingNormals(cloud, attitude, options_.threads, result_.attitude);
     });
+    stage("sampling", [&] {
+      return findSampleSize(cloud, {options_.structure_points, attitude.noise}, options_.threads);
+    });
     stage("vertical",
           [&] { return setUpright(cloud, attitude, options_.threads, result_.attitude); });
     stage("orientation",
@@ -48,6 +52,8 @@ class Pipeline {
       return measureScale(cloud, attitude.noise, options_.threads, result_.attitude.scale);
     });
     observers_.cloud("01_upright", cloud);
+    result_.all = cloud;
+    takeSample();
     stage("planar",
           [&] { return measureConfidence(cloud, options_.kept_share, options_.threads); });
     observers_.cloud("02_confidence", cloud);
@@ -65,9 +71,9 @@ class Pipeline {
     }
     stage("model", [&] {
       const bool blocks = options_.method == Method::Building;
-      return buildModel(cloud, blocks ? result_.blocks : result_.slices.layers, options_.method,
-                        options_.simplicity.max_types, options_.model, options_.threads,
-                        result_.model, options_.steps);
+      return buildModel(result_.all, blocks ? result_.blocks : result_.slices.layers,
+                        options_.method, options_.simplicity.max_types, options_.model,
+                        options_.threads, result_.model, options_.steps);
     });
     result_.local_to_input = modelToInput(cloud, result_.model);
     return std::move(result_);
@@ -95,6 +101,16 @@ class Pipeline {
       found += stages::format(", thinned from %zu", result_.loaded.declared);
     }
     return found;
+  }
+
+  /// From here to the model only the structure is looked for. The paper's chain has all points: it
+  /// sees those of one slice at a time.
+  void takeSample() {
+    StageCloud& cloud = result_.cloud;
+    if (!isSampled(cloud)) return;
+    if (options_.method == Method::Paper && options_.structure_points == 0) return;
+    cloud = sampleOf(cloud);
+    observers_.cloud("01_sampled", cloud);
   }
 
   /// The paper's chain, on a copy of the cloud: its stages leave only the points of slices.

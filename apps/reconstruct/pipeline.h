@@ -24,7 +24,8 @@ struct StageTime {
 struct Result {
   io::LoadedCloud loaded;  ///< the points themselves are moved on to `cloud`
   stages::Attitude attitude;
-  stages::StageCloud cloud;                     ///< all points, upright
+  stages::StageCloud all;                       ///< all points, upright
+  stages::StageCloud cloud;                     ///< those that the structure was found in
   stages::SliceFloorplans slices;               ///< method paper
   std::vector<FloorplanLayer> blocks;           ///< method building
   storey::detail::BuildingFloorplans building;  ///< how they were found

@@ -45,7 +45,8 @@ double turn(const Eigen::Isometry3d& rotation) {
 Json describeInput(const Options& options, const Result& r) {
   return {{"file", options.input},
           {"format", r.loaded.format},
-          {"points", r.cloud.points->size()},
+          {"points", r.all.points->size()},
+          {"structure_points", r.cloud.points->size()},
           {"declared", r.loaded.declared},
           {"thinned_out", r.loaded.thinned_out},
           {"dropped_non_finite", r.loaded.dropped_non_finite},
@@ -67,6 +68,7 @@ Json describeParameters(const Options& o) {
           {"block_cost", o.blocks.block_cost},
           {"min_wall_area", o.blocks.min_wall_area},
           {"noise", a.noise},
+          {"structure_points", o.structure_points},
           {"kept_share", o.kept_share},
           {"slice_thickness", o.slices.thickness},
           {"smoothness", o.model.smoothness},

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stages/sampling.h"
+
 namespace storey::stages {
 namespace {
 
@@ -57,7 +59,7 @@ std::string estimateMissingNormals(StageCloud& cloud, const AttitudeOptions& opt
 std::string setUpright(StageCloud& cloud, const AttitudeOptions& options, unsigned int threads,
                        Attitude& found) {
   VerticalDirectionEstimation<Point> estimation;
-  estimation.setInputCloud(cloud.points);
+  estimation.setInputCloud(samplePoints(cloud));
   estimation.setInitialUp(options.up);
   estimation.setNumberOfThreads(threads);
   if (!estimation.compute(found.up)) refuse(cloud, "the vertical cannot be found", "give --up");
@@ -96,7 +98,8 @@ std::string orientOutwards(StageCloud& cloud, const AttitudeOptions& options, un
     inside = options.side == SpaceSide::Inside;
     found.side_reason = "normals estimated";
   } else {
-    const NormalSideEvidence side = detectNormalSide(*cloud.points, Eigen::Vector3d::UnitZ());
+    const NormalSideEvidence side =
+        detectNormalSide(*samplePoints(cloud), Eigen::Vector3d::UnitZ());
     inside = options.side == SpaceSide::Inside ||
              (options.side == SpaceSide::Auto && side.side == NormalSide::Space);
     found.side_reason = format("outwardness %.2f", side.outwardness);
@@ -114,7 +117,8 @@ std::string measureScale(StageCloud& cloud, double given_noise, unsigned int thr
   requireNormals(cloud);
   std::vector<Eigen::Vector3f> positions;
   std::vector<Eigen::Vector3f> normals;
-  for (const Point& p : *cloud.points) {
+  const Cloud::ConstPtr sample = samplePoints(cloud);
+  for (const Point& p : *sample) {
     if (std::abs(p.normal_z) < std::sin(kMaxWallTilt)) {
       positions.push_back(p.getVector3fMap());
       normals.push_back(p.getNormalVector3fMap());
@@ -127,6 +131,7 @@ std::string measureScale(StageCloud& cloud, double given_noise, unsigned int thr
            format("give at least %.2g, a hundred-thousandth of its extent",
                   storey::detail::kLeastWallNoise * scale.extent));
   }
+  scale.density *= static_cast<double>(cloud.points->size()) / static_cast<double>(sample->size());
   cloud.state.density = scale.density;
   cloud.state.noise = given_noise > 0.0 ? given_noise
                                         : storey::detail::estimateWallNoise(

@@ -35,6 +35,12 @@ void checkAttitude(const cli::CommandLine& line, AttitudeOptions& o) {
   }
 }
 
+void declareStructurePoints(cli::CommandLine& line, int& structure_points) {
+  line.whole("structure-points", structure_points, 0,
+             "points that the structure is found with; walls and heights are fitted to all points "
+             "[0 = as many as the noise lets tell apart; method paper: all, but for the vertical]");
+}
+
 void declareKeptShare(cli::CommandLine& line, double& kept_share) {
   line.number("kept-share", kept_share, cli::kPositiveShare,
               "share of the points taken as planar, 0 to 1");

@@ -19,6 +19,7 @@ constexpr double kDefaultKeptShare = 0.85;
 
 // The options of each stage, declared once for its own program and for storey_reconstruct.
 void declareAttitude(cli::CommandLine& line, AttitudeOptions& options);
+void declareStructurePoints(cli::CommandLine& line, int& structure_points);
 void declareKeptShare(cli::CommandLine& line, double& kept_share);
 void declareMethod(cli::CommandLine& line, Method& method);
 void declareThickness(cli::CommandLine& line, SliceOptions& options);

@@ -24,6 +24,7 @@ struct StageState {
   bool inside = false;           ///< the points enclose a space and were seen from inside it
   double noise = 0.0;            ///< standard deviation of the points about their walls
   double density = 0.0;          ///< points per unit of wall area
+  std::size_t sample_size = 0;   ///< of the points that show all of the structure
   float planar_threshold = 0.0;  ///< least confidence of a planar point
   std::vector<Eigen::Vector3d> directions;        ///< dominant ones, unit
   std::vector<std::pair<double, double>> slices;  ///< z_min, z_max of each, bottom to top

@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* kFrame = "frame_to_input";  // every file of a stage has it
 constexpr std::size_t kSlicesPerLine = 500;       // far below the longest line that readers take
+constexpr double kMaxCount = 4294967296.0;        // of points, more than any reader takes
 constexpr double kRotationTolerance = 1e-6;
 
 class Note {
@@ -46,6 +47,7 @@ class StateReader {
     if (key_ == "space") state_.inside = rest == "inside";
     if (key_ == "noise") state_.noise = nonNegative(rest);
     if (key_ == "density") state_.density = nonNegative(rest);
+    if (key_ == "sample_size") state_.sample_size = count(rest);
     if (key_ == "planar_threshold") {
       state_.planar_threshold = static_cast<float>(nonNegative(rest));
     }
@@ -76,6 +78,12 @@ class StateReader {
     const std::vector<double> values = numbers(text, 1);
     if (values.size() != 1 || values[0] < 0.0) fail();
     return values[0];
+  }
+
+  std::size_t count(const std::string& text) const {
+    const double value = nonNegative(text);
+    if (value != std::floor(value) || value > kMaxCount) fail();
+    return static_cast<std::size_t>(value);
   }
 
   void readDirections(const std::vector<double>& values) {
@@ -126,6 +134,9 @@ std::vector<std::string> toNotes(const StageState& state) {
   notes.push_back(state.inside ? "space inside" : "space outside");
   if (state.noise > 0.0) notes.push_back(Note("noise").add(state.noise).text());
   if (state.density > 0.0) notes.push_back(Note("density").add(state.density).text());
+  if (state.sample_size > 0) {
+    notes.push_back(Note("sample_size").add(static_cast<double>(state.sample_size)).text());
+  }
   if (state.planar_threshold > 0.0f) {
     const auto threshold = static_cast<double>(state.planar_threshold);
     notes.push_back(Note("planar_threshold").add(threshold).text());

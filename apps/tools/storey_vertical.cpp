@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The first stage: a cloud set upright, with outward normals and its scale.
 #include "stages/options.h"
+#include "stages/sampling.h"
 #include "tools/stage_program.h"
 
 namespace {
@@ -19,11 +20,12 @@ void startAgain(stages::StageCloud& cloud) {
 }
 
 std::string prepare(stages::StageCloud& cloud, const stages::AttitudeOptions& options,
-                    unsigned int threads) {
+                    int structure_points, unsigned int threads) {
   startAgain(cloud);
   if (!options.crs.empty()) cloud.state.crs = options.crs;
   stages::Attitude found;
   std::string lines = estimateMissingNormals(cloud, options, threads, found);
+  findSampleSize(cloud, {structure_points, options.noise}, threads);
   lines = "normals " + lines + "\n" + setUpright(cloud, options, threads, found);
   lines += "\n" + orientOutwards(cloud, options, threads, found);
   return lines + "\n" + measureScale(cloud, options.noise, threads, found.scale);
@@ -33,6 +35,7 @@ std::string prepare(stages::StageCloud& cloud, const stages::AttitudeOptions& op
 
 int main(int argc, char** argv) {
   stages::AttitudeOptions options;
+  int structure_points = 0;
   return storey::tools::runStage(
       argc, argv,
       {"storey_vertical",
@@ -41,9 +44,12 @@ int main(int argc, char** argv) {
        "there are none, point outwards. The header says how to get back to the input's "
        "coordinates\n"
        "(frame_to_input), and the noise and density of the walls.",
-       [&](storey::cli::CommandLine& line) { declareAttitude(line, options); },
+       [&](storey::cli::CommandLine& line) {
+         declareAttitude(line, options);
+         stages::declareStructurePoints(line, structure_points);
+       },
        [&](const storey::cli::CommandLine& line) { checkAttitude(line, options); },
        [&](stages::StageCloud& cloud, unsigned int threads) {
-         return prepare(cloud, options, threads);
+         return prepare(cloud, options, structure_points, threads);
        }});
 }

@@ -16,7 +16,6 @@
 namespace storey::detail {
 namespace {
 
-constexpr std::size_t kMaxSamples = 250000;  // points that vote for lines
 constexpr int kFreeAngles = 360;             // one a degree, all around: lines are oriented
 constexpr double kFreeBin = 1.5;             // of the offset, noise deviations
 constexpr int kFreeWindow = 3;               // bins
@@ -186,20 +185,6 @@ bool isLeftover(const std::vector<int>& support, const std::vector<WallLine>& st
 }
 
 }  // namespace
-
-pcl::Indices drawEvenly(const pcl::Indices& points) {
-  const std::size_t step = points.size() / kMaxSamples + 1;
-  if (step == 1) return points;
-  pcl::Indices sample;
-  // Golden-ratio stepping inside each stride, so that the order of a scanner leaves no pattern.
-  double phase = 0.5;
-  for (std::size_t i = 0; i < points.size(); i += step) {
-    phase = std::fmod(phase + 0.6180339887498949, 1.0);
-    const auto j = i + static_cast<std::size_t>(phase * static_cast<double>(step));
-    if (j < points.size()) sample.push_back(points[j]);
-  }
-  return sample;
-}
 
 std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const WallScale& scale,
                                     const WallLineOptions& options) {

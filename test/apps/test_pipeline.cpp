@@ -9,6 +9,7 @@
 #include "io/failure.h"
 #include "io/model_io.h"
 #include "reconstruct/pipeline.h"
+#include "synth/accuracy_limit.h"
 #include "synth/buildings.h"
 #include "synth/cloud_writer.h"
 #include "synth/evaluation.h"
@@ -107,6 +108,28 @@ TEST(Pipeline, GivesTheSameModelForAnyNumberOfThreads) {
     for (std::size_t i = 0; i < one.vertices.size(); ++i) {
       EXPECT_EQ(one.vertices[i], four.vertices[i]);
     }
+  }
+}
+
+// The structure is found in a sixth of the points, and the walls are where all of them say.
+TEST(Pipeline, FitsToAllPointsWhatItFoundInASample) {
+  synth::SamplingOptions sampled = sampling();
+  sampled.points = 6 * kPoints;
+  for (const Method method : {Method::Building, Method::Paper}) {
+    Options options;
+    options.method = method;
+    options.structure_points = kPoints;
+    const Outcome outcome = reconstructBuilding("two_towers", sampled, options);
+    EXPECT_EQ(outcome.result.cloud.points->size(), kPoints);
+    EXPECT_EQ(outcome.result.all.points->size(), sampled.points);
+    EXPECT_EQ(outcome.evaluation.model.polygons, outcome.evaluation.truth.polygons);
+    std::size_t support = 0;
+    for (const auto& face : outcome.result.model.model.faces) support += face.support;
+    EXPECT_GT(support, 5 * kPoints);
+    const double limit = synth::cramerRaoLimit(synth::makeBuilding("two_towers").layers,
+                                               sampled.points, sampled.noise)
+                             .vertex_to_facet;
+    EXPECT_LT(outcome.evaluation.vertex_to_truth.mean, 2.0 * limit);
   }
 }
 

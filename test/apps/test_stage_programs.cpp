@@ -80,11 +80,13 @@ TEST_P(Chains, GiveTheModelsOfStoreyReconstructByteForByte) {
                            const std::string& out) {
     runWell(directory, program + " " + cloud(in) + " " + cloud(out) + " -q --threads 2");
   };
-  runWell(directory,
-          "storey_vertical cloud.ply " + cloud("01_upright") + " -q --crs EPSG:25832 --threads 2");
-  through("storey_planar_confidence", "01_upright", "02_confidence");
+  const std::string thinned = sample == 0 ? " --structure-points 15000" : "";
+  runWell(directory, "storey_vertical cloud.ply " + cloud("01_upright") +
+                         " -q --crs EPSG:25832 --threads 2" + thinned);
+  through("storey_sampling", "01_upright", "01_sampled");
+  through("storey_planar_confidence", "01_sampled", "02_confidence");
   runWell(directory, "storey_floorplans -q " + cloud("02_confidence") + " building.geojson");
-  runWell(directory, "storey_layers -q " + cloud("02_confidence") +
+  runWell(directory, "storey_layers -q " + cloud("01_upright") +
                          " building.geojson building.ply building_files/model.obj "
                          "building_fitted.geojson");
   through("storey_classes", "02_confidence", "02_classes");
@@ -103,7 +105,7 @@ TEST_P(Chains, GiveTheModelsOfStoreyReconstructByteForByte) {
     runWell(directory,
             "storey_reconstruct cloud.ply -q --threads 1 --intermediate --crs "
             "EPSG:25832 --method " +
-                method + " -o " + method);
+                method + " -o " + method + thinned);
     const auto same = [&](const std::string& ours, const std::string& theirs) {
       const std::string bytes = readAll(directory.file(ours));
       EXPECT_FALSE(bytes.empty()) << ours;
@@ -116,10 +118,13 @@ TEST_P(Chains, GiveTheModelsOfStoreyReconstructByteForByte) {
     same(method + ".geojson", "09_floorplans.geojson");
     if (extension != "pcd") continue;
     for (const char* const stage :
-         {"01_upright", "02_confidence", "02_classes", "03_directions", "04_slices", "05_normals",
-          "06_labels", "07_regions", "08_refined"}) {
+         {"01_upright", "01_sampled", "02_confidence", "02_classes", "03_directions", "04_slices",
+          "05_normals", "06_labels", "07_regions", "08_refined"}) {
       const bool left = std::filesystem::exists(directory.file(method + "/" + cloud(stage)));
-      EXPECT_EQ(left, method == "paper" || std::string(stage) < "04") << stage;
+      const bool expected = std::string(stage) == "01_sampled"
+                                ? !thinned.empty()
+                                : method == "paper" || std::string(stage) < "04";
+      EXPECT_EQ(left, expected) << stage;
       if (left) same(cloud(stage), cloud(stage));
     }
   }
@@ -145,12 +150,19 @@ class StagePrograms : public ::testing::Test {
 
 TemporaryDirectory* StagePrograms::directory_ = nullptr;
 
-constexpr const char* kPrograms[] = {"storey_vertical",   "storey_planar_confidence",
-                                     "storey_classes",    "storey_dominant_directions",
-                                     "storey_slices",     "storey_normals",
-                                     "storey_labels",     "storey_regions",
-                                     "storey_positions",  "storey_walls",
-                                     "storey_floorplans", "storey_layers"};
+constexpr const char* kPrograms[] = {"storey_vertical",
+                                     "storey_sampling",
+                                     "storey_planar_confidence",
+                                     "storey_classes",
+                                     "storey_dominant_directions",
+                                     "storey_slices",
+                                     "storey_normals",
+                                     "storey_labels",
+                                     "storey_regions",
+                                     "storey_positions",
+                                     "storey_walls",
+                                     "storey_floorplans",
+                                     "storey_layers"};
 
 TEST_F(StagePrograms, ExplainThemselves) {
   for (const std::string program : kPrograms) {
@@ -269,6 +281,8 @@ TEST_F(StagePrograms, CommentsThatMakeNoSenseAreRefused) {
            {"noise", "1 2"},
            {"noise", ""},
            {"density", "inf"},
+           {"sample_size", "0.5"},
+           {"sample_size", "1e300"},
            {"crs", "EPSG:x"},
            {"planar_threshold", "much"},
            {"frame_to_input", "1 0 0 0"},

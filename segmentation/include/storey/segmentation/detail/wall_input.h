@@ -5,6 +5,7 @@
 #include <pcl/point_cloud.h>
 #include <storey/filters/cloud_scale.h>
 #include <storey/filters/detail/chunks.h>
+#include <storey/filters/detail/even_draw.h>
 #include <storey/filters/detail/main_box.h>
 #include <storey/segmentation/detail/cell_energy.h>
 #include <storey/segmentation/detail/place_order.h>
@@ -64,7 +65,7 @@ pcl::Indices withoutOutliers(const pcl::PointCloud<PointT>& cloud, const pcl::In
     return Eigen::Vector3f(p.x, p.y, p.z);
   };
   std::vector<Eigen::Vector3f> sample;
-  for (const pcl::index_t i : drawEvenly(of_walls)) sample.push_back(positionOf(i));
+  for (const pcl::index_t i : drawEvenly(of_walls, kLineSample)) sample.push_back(positionOf(i));
   const Eigen::AlignedBox3f box = mainBoxOf(sample);
   pcl::Indices inside;
   inside.reserve(of_walls.size());
@@ -129,7 +130,8 @@ WallInput gatherWallInput(const pcl::PointCloud<PointT>& cloud, const pcl::Indic
   input.min_wall_area = parameters.min_wall_area > 0.0
                             ? parameters.min_wall_area
                             : leastWallArea(cloud, of_walls, input.scale.noise);
-  input.sample = toWallPoints(cloud, orderByPlace(cloud, drawEvenly(of_walls), threads), threads);
+  input.sample =
+      toWallPoints(cloud, orderByPlace(cloud, drawEvenly(of_walls, kLineSample), threads), threads);
   input.wall_indices = orderByPlace(cloud, of_walls, threads);
   input.walls = toWallPoints(cloud, input.wall_indices, threads);
   return input;

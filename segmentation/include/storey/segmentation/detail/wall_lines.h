@@ -15,8 +15,8 @@ struct WallLineOptions {
   unsigned int threads = 0;  ///< 0: all cores; the result is the same for any number
 };
 
-/// At most 250,000 of the points, evenly drawn: enough to find lines with.
-pcl::Indices drawEvenly(const pcl::Indices& points);
+/// So many points are enough to find lines with.
+constexpr std::size_t kLineSample = 250000;
 
 /// Finds the wall lines of a whole building: an oriented Hough vote over all heights at once.
 /// 1. Free pass: a point votes for all lines within `kVoteAngle` of its own, unsmoothed normal; the
