@@ -69,6 +69,7 @@ void RawCloud::begin(std::uint64_t num_points, const PointColumns& columns,
                      const ReadLimits& limits) {
   declared = num_points;
   limitPoints(limits.max_points);
+  take_part_ = limits.take_part;
   has_normal_fields = columns.has_normals;
   const std::uint64_t at_once = std::min(num_points, limits.max_points + 1);
   positions.reserve(3 * at_once);

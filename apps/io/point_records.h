@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -74,7 +75,7 @@ struct RawCloud {
   void add(const std::vector<double>& values);
   std::uint64_t size() const { return positions.size() / 3; }
 
-  /// To be called after each point, where they are thinned while they are read.
+  /// To be called after each point, where they are thinned or handed on while they are read.
   void settle();
   /// Leaves a sample of at most so many points, without their viewers.
   void thin(std::uint64_t max_points);
@@ -87,6 +88,7 @@ struct RawCloud {
   void cut(std::size_t num_points);
 
   std::uint64_t max_points_ = kMaxPoints;
+  std::function<void(const RawCloud&)> take_part_;
   std::uint64_t key_limit_ = kAllKeys;
 };
 
@@ -102,8 +104,12 @@ struct ReadLimits {
   std::uint64_t max_points = kMaxPoints;                 ///< kept: more are thinned to so many
   std::uint64_t bytes_per_point = kLoaderBytesPerPoint;  ///< of those that are kept
 
+  /// Instead of thinning: takes each `max_points` points on, in the order of the file, and only the
+  /// last of them are left to be returned. For PLY and PCD.
+  std::function<void(const RawCloud&)> take_part = {};
+
   /// For formats that are thinned only when they are read.
-  ReadLimits wholeFile() const { return {max_memory, kMaxPoints, kLoaderBytesPerPoint}; }
+  ReadLimits wholeFile() const { return {max_memory}; }
 };
 
 /// Fails if so many points cannot be.

@@ -16,6 +16,12 @@ void moveEntries(std::vector<Number>& entries, std::size_t each, std::size_t fro
 }  // namespace
 
 void RawCloud::settle() {
+  if (take_part_) {
+    if (size() < max_points_) return;
+    take_part_(*this);
+    cut(0);
+    return;
+  }
   if (key_limit_ < kAllKeys && hashPosition(&positions[positions.size() - 3]) >= key_limit_) {
     cut(size() - 1);
   }

@@ -42,8 +42,9 @@ bool parseOptions(int argc, char** argv, Options& o) {
   line.text("formats", formats, formatsHelp());
   line.whole(
       "max-points", o.max_points, 0,
-      "thin a larger cloud to about so many points while it is read: a sample at random, the "
-      "same for the same cloud [0 = take all of them]");
+      "keep no more than about so many points of a larger cloud in memory: the structure is found "
+      "in a sample at random, walls and heights are fitted to all points as the file is read once "
+      "more (PLY and PCD with normals) [0 = take all of them]");
   stages::declareAttitude(line, o.attitude);
   stages::declareStructurePoints(line, o.structure_points);
   stages::declareKeptShare(line, o.kept_share);

@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "stages/classes.h"
+#include "stages/parts.h"
 #include "stages/planar.h"
 #include "stages/sampling.h"
 #include "stages/stage_cloud_io.h"
@@ -73,7 +74,8 @@ class Pipeline {
       const bool blocks = options_.method == Method::Building;
       return buildModel(result_.all, blocks ? result_.blocks : result_.slices.layers,
                         options_.method, options_.simplicity.max_types, options_.model,
-                        options_.threads, result_.model, options_.steps);
+                        options_.threads, result_.model,
+                        partsOf(result_.loaded, result_.all, attitude), options_.steps);
     });
     result_.local_to_input = modelToInput(cloud, result_.model);
     return std::move(result_);

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stages/model.h"
 
-#include <storey/surface/layerwise_mrf_reconstruction.h>
-
 #include "stages/attitude.h"
 
 namespace storey::stages {
 
 std::string buildModel(StageCloud& cloud, const std::vector<FloorplanLayer>& layers, Method method,
                        int max_types, const ModelOptions& options, unsigned int threads,
-                       LayerwiseModel& model, const storey::detail::MethodSteps& steps) {
+                       LayerwiseModel& model, const PartSource& parts,
+                       const storey::detail::MethodSteps& steps) {
   ensureScale(cloud);
   LayerwiseMRFReconstruction<Point> reconstruction;
   reconstruction.setInputCloud(cloud.points);
@@ -26,6 +25,7 @@ std::string buildModel(StageCloud& cloud, const std::vector<FloorplanLayer>& lay
   reconstruction.setEncoding(options.encoding);
   reconstruction.setExactMinimization(!options.expansion);
   reconstruction.setGrid(options.grid);
+  reconstruction.setPartSource(parts);
   reconstruction.setSteps(steps);
   reconstruction.setNumberOfThreads(threads);
   pcl::PolygonMesh mesh;
@@ -36,9 +36,10 @@ std::string buildModel(StageCloud& cloud, const std::vector<FloorplanLayer>& lay
            options.grid > 0.0 ? "does --grid fit the size of the cloud?"
                               : "look at the floorplans with --intermediate");
   }
-  return format("%d floorplan types in %zu blocks, %zu polygons, %s", model.dominant.num_types,
+  return format("%d floorplan types in %zu blocks, %zu polygons, %s%s", model.dominant.num_types,
                 model.model.storeys.size(), model.model.faces.size(),
-                model.check.ok() ? "closed and valid" : "NOT VALID");
+                model.check.ok() ? "closed and valid" : "NOT VALID",
+                parts ? ", fitted to all points of the file" : "");
 }
 
 Eigen::Isometry3d modelToInput(const StageCloud& cloud, const LayerwiseModel& model) {

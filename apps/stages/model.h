@@ -2,7 +2,7 @@
 #pragma once
 
 #include <storey/surface/floorplan_grammar.h>
-#include <storey/surface/layerwise_model.h>
+#include <storey/surface/layerwise_mrf_reconstruction.h>
 
 #include <vector>
 
@@ -10,6 +10,9 @@
 #include "stages/stage_cloud.h"
 
 namespace storey::stages {
+
+using PartVisitor = LayerwiseMRFReconstruction<Point>::PartVisitor;
+using PartSource = LayerwiseMRFReconstruction<Point>::PartSource;
 
 struct ModelOptions {
   double smoothness = 0.1;  ///< eta1, method paper
@@ -21,11 +24,13 @@ struct ModelOptions {
 
 /// The solid over the floorplans, fitted to all points.
 /// \param layers of slices or of blocks, as `method` says
+/// \param parts of all points, where the cloud is a sample of them; may be empty
 /// \param steps for experiments: those of the method that are left out
 /// \return a line that says what was found \throws io::Failure (BadInput) if there is no solid
 std::string buildModel(StageCloud& cloud, const std::vector<FloorplanLayer>& layers, Method method,
                        int max_types, const ModelOptions& options, unsigned int threads,
-                       LayerwiseModel& model, const storey::detail::MethodSteps& steps = {});
+                       LayerwiseModel& model, const PartSource& parts = {},
+                       const storey::detail::MethodSteps& steps = {});
 
 /// Takes a model to the coordinates of the file that the first stage read.
 Eigen::Isometry3d modelToInput(const StageCloud& cloud, const LayerwiseModel& model);

@@ -63,14 +63,18 @@ std::vector<HeightFit> fitHeights(std::vector<FloorplanLayer>& layers, const Fit
     return {};
   }
   if (layers.empty()) return {};
-  const std::vector<detail::LevelEvidence> evidence =
-      detail::collectLevelEvidence(layers, points, options);
-  std::vector<detail::LevelFitting> fittings;
-  for (const detail::LevelEvidence& level : evidence) {
+  return detail::fitHeights(layers, detail::collectLevelEvidence(layers, points, options), options);
+}
+
+std::vector<HeightFit> detail::fitHeights(std::vector<FloorplanLayer>& layers,
+                                          const std::vector<LevelEvidence>& evidence,
+                                          const FitOptions& options) {
+  std::vector<LevelFitting> fittings;
+  for (const LevelEvidence& level : evidence) {
     fittings.emplace_back(level, options.noise, options.max_shift, options.threads);
   }
   std::vector<HeightFit> levels = fitLevels(fittings, 0.0, options.threads);
-  const double tails = detail::tailsOf(evidence, levels, options.noise);
+  const double tails = tailsOf(evidence, levels, options.noise);
   if (tails > 0.0) levels = fitLevels(fittings, tails, options.threads);
   for (std::size_t k = 1; k < levels.size(); ++k) {
     levels[k].z = std::max(levels[k].z, levels[k - 1].z);

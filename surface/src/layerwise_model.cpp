@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <storey/filters/detail/chunks.h>
+#include <storey/surface/detail/fitted_model.h>
 #include <storey/surface/detail/points_by_wall.h>
 #include <storey/surface/detail/short_edges.h>
 #include <storey/surface/detail/stacked_walls.h>
-#include <storey/surface/extrusion.h>
-#include <storey/surface/face_support.h>
 #include <storey/surface/layerwise_model.h>
 
 #include <algorithm>
@@ -19,40 +17,7 @@ constexpr double kHeightSearchInSlices = 1.5;
 constexpr int kFirstRounds = 2;               // without panes, which are looked for afterwards
 constexpr std::size_t kFirstPoints = 100000;  // tell lines and heights to a part of the noise
 constexpr double kOneWall = 1.0;              // noise deviations between lines of one wall, at most
-constexpr double kShortEdge = 3.0;      // noise deviations: a face as narrow is noise of others
-constexpr double kMaxNoiseRatio = 2.0;  // of the walls' residual to the noise they were found with
-
-// The noise that the walls show: the residual of the wall in the middle, counted by points.
-double noiseOfWalls(const std::map<int, WallFit>& walls, double guess) {
-  std::vector<std::pair<double, std::size_t>> residuals;
-  std::size_t points = 0;
-  for (const auto& [id, wall] : walls) {
-    if (wall.support == 0) continue;
-    residuals.emplace_back(wall.residual, wall.support);
-    points += wall.support;
-  }
-  std::sort(residuals.begin(), residuals.end());
-  std::size_t below = 0;
-  for (const auto& [residual, support] : residuals) {
-    below += support;
-    if (2 * below >= points) {
-      return std::clamp(residual, guess / kMaxNoiseRatio, guess * kMaxNoiseRatio);
-    }
-  }
-  return guess;
-}
-
-void turn(const Eigen::Isometry3d& upright, unsigned int threads, FitPoints& points) {
-  const auto work = [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Eigen::Vector3f& p = points.positions[i];
-      Eigen::Vector3f& n = points.normals[i];
-      p = (upright * p.cast<double>()).cast<float>();
-      n = (upright.linear() * n.cast<double>()).cast<float>();
-    }
-  };
-  detail::forEachChunk(points.positions.size(), threads, work);
-}
+constexpr double kShortEdge = 3.0;  // noise deviations: a face as narrow is noise of others
 
 // Turns the points by what the walls lean. \return the rotation
 Eigen::Isometry3d setUpright(const std::vector<FloorplanLayer>& layers,
@@ -62,7 +27,7 @@ Eigen::Isometry3d setUpright(const std::vector<FloorplanLayer>& layers,
   const Eigen::Isometry3d upright =
       detail::fitUpright(layers, points, options.noise, options.threads, by_wall);
   if (upright.matrix().isIdentity(0.0)) return upright;
-  turn(upright, options.threads, points);
+  detail::turnPoints(upright, options.threads, points);
   by_wall = {};
   return upright;
 }
@@ -107,16 +72,12 @@ void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, Layer
     result.walls = detail::fitWalls(layers, points, fit, by_wall);
   }
   by_wall = {};
-  fit.noise = noiseOfWalls(result.walls, options.noise);
+  fit.noise = detail::noiseOfWalls(result.walls, options.noise);
   if (options.steps.unseen_walls) fitUnseenWalls(layers, points, fit.noise, result.walls);
   if (options.steps.facets) detail::dropShortEdges(layers, result.walls, kShortEdge * fit.noise);
   fit.max_shift = 0.5 * options.slice_thickness;
   result.levels = fitHeights(layers, points, fit);
-  result.model = extrudeFloorplans(layers, options.grid);
-  result.check = checkModel(result.model);
-  if (result.model.empty()) return;
-  measureSupport(points, fit.noise, result.model, options.threads);
-  propagateDeviations(result.walls, result.levels, result.model);
+  detail::extrudeFits(layers, points, fit.noise, options, result);
 }
 
 // The walls of an outline, whatever corner and component come first.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/surface/detail/edge_index.h>
 #include <storey/surface/detail/level_fitting.h>
+#include <storey/surface/detail/unseen_walls.h>
 #include <storey/surface/detail/wall_corners.h>
 #include <storey/surface/floorplan_fitting.h>
 
@@ -32,28 +33,6 @@ void forEachRing(const std::vector<FloorplanLayer>& layers, Visit visit) {
       for (const FloorplanRing& hole : component.holes) visit(layer, hole);
     }
   }
-}
-
-std::map<int, WallFit> unseenOf(const std::vector<FloorplanLayer>& layers,
-                                const std::map<int, WallFit>& fits) {
-  std::map<int, double> areas;
-  forEachRing(layers, [&](const FloorplanLayer& layer, const FloorplanRing& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      areas[ring.edges[i].wall] +=
-          (ring.vertices[(i + 1) % ring.size()] - ring.vertices[i]).norm() *
-          (layer.z_max - layer.z_min);
-    }
-  });
-  std::vector<double> densities;
-  for (const auto& [id, fit] : fits) densities.push_back(densityOf(fit, areas[id]));
-  if (densities.empty()) return {};
-  const auto middle = densities.begin() + static_cast<std::ptrdiff_t>(densities.size() / 2);
-  std::nth_element(densities.begin(), middle, densities.end());
-  std::map<int, WallFit> unseen;
-  for (const auto& [id, fit] : fits) {
-    if (densityOf(fit, areas[id]) < kUnseen * *middle) unseen.emplace(id, fit);
-  }
-  return unseen;
 }
 
 // A corner of an unseen wall with a neighbor that is seen.
@@ -160,9 +139,31 @@ bool fitToCorners(const std::vector<Corner>& corners, const FitPoints& points, d
 
 }  // namespace
 
+std::map<int, WallFit> detail::unseenWalls(const std::vector<FloorplanLayer>& layers,
+                                           const std::map<int, WallFit>& fits) {
+  std::map<int, double> areas;
+  forEachRing(layers, [&](const FloorplanLayer& layer, const FloorplanRing& ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      areas[ring.edges[i].wall] +=
+          (ring.vertices[(i + 1) % ring.size()] - ring.vertices[i]).norm() *
+          (layer.z_max - layer.z_min);
+    }
+  });
+  std::vector<double> densities;
+  for (const auto& [id, fit] : fits) densities.push_back(densityOf(fit, areas[id]));
+  if (densities.empty()) return {};
+  const auto middle = densities.begin() + static_cast<std::ptrdiff_t>(densities.size() / 2);
+  std::nth_element(densities.begin(), middle, densities.end());
+  std::map<int, WallFit> unseen;
+  for (const auto& [id, fit] : fits) {
+    if (densityOf(fit, areas[id]) < kUnseen * *middle) unseen.emplace(id, fit);
+  }
+  return unseen;
+}
+
 void fitUnseenWalls(std::vector<FloorplanLayer>& layers, const FitPoints& points, double noise,
                     std::map<int, WallFit>& fits) {
-  const std::map<int, WallFit> unseen = unseenOf(layers, fits);
+  const std::map<int, WallFit> unseen = detail::unseenWalls(layers, fits);
   for (const auto& [id, fit] : unseen) {
     WallFit wall = fit;
     if (fitToCorners(cornersOf(id, layers, fits, unseen), points, noise, wall)) fits[id] = wall;

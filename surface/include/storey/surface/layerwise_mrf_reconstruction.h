@@ -6,6 +6,7 @@
 #include <storey/filters/eigen_alignment.h>
 #include <storey/surface/layerwise_model.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,16 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
   /// Blocks with wall ids, bottom to top; not used where floorplans of slices are set.
   void setBlocks(const std::vector<FloorplanLayer>& blocks) { blocks_ = blocks; }
   const std::vector<FloorplanLayer>& getBlocks() const { return blocks_; }
+
+  using PartVisitor = std::function<void(const pcl::PointCloud<PointT>& part)>;
+  /// Calls the visitor with each part of a cloud.
+  using PartSource = std::function<void(const PartVisitor&)>;
+
+  /// Where the input is a sample of more points than memory holds: they come in parts, in the frame
+  /// of the input, and walls and heights are fitted to all of them (`ModelRefinement`). The source
+  /// is asked once, at the end of `reconstruct`; what it throws comes out of there. Empty
+  /// (default): the input is all there is.
+  void setPartSource(const PartSource& source) { source_ = source; }
 
   /// Standard deviation of the points across their walls; 0 (default): estimated from the input.
   void setNoise(double noise) { noise_ = noise; }
@@ -112,6 +123,7 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
  private:
   bool parametersValid() const;
   bool build();
+  void refine(const LayerwiseModelOptions& options);
 
   std::vector<FloorplanLayer> floorplans_;
   std::vector<FloorplanLayer> blocks_;
@@ -121,6 +133,7 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
   double grid_ = 0.0;
   unsigned int threads_ = 0;
   detail::MethodSteps steps_;
+  PartSource source_;
   LayerwiseModel result_;
 };
 

@@ -34,4 +34,9 @@ class LevelFitting {
   std::vector<double> cap_values_;  // of the scan; none if level faces tell nothing
 };
 
+/// `fitHeights` from what the points tell of the levels of these layers.
+std::vector<HeightFit> fitHeights(std::vector<FloorplanLayer>& layers,
+                                  const std::vector<LevelEvidence>& evidence,
+                                  const FitOptions& options);
+
 }  // namespace storey::detail

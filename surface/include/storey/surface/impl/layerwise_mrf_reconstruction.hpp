@@ -11,10 +11,12 @@
 #include <storey/segmentation/detail/indexed_scale.h>
 #include <storey/segmentation/detail/place_order.h>
 #include <storey/surface/mesh_export.h>
+#include <storey/surface/model_refinement.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 #include <utility>
 // The base class searches: without these a point type unknown to PCL does not link.
 #include <pcl/kdtree/impl/kdtree_flann.hpp>
@@ -155,10 +157,23 @@ bool LayerwiseMRFReconstruction<PointT>::build() {
       result_ = buildModelOfBlocks(blocks, std::move(points), options);
     }
   }
+  if (source_ && !result_.model.empty()) refine(options);
   this->deinitCompute();
   if (!result_.model.empty()) return true;
   PCL_ERROR("[storey::%s] no outline was found.\n", getClassName().c_str());
   return false;
+}
+
+template <typename PointT>
+void LayerwiseMRFReconstruction<PointT>::refine(const LayerwiseModelOptions& options) {
+  ModelRefinement refinement(detail::toFitPoints(*this->input_, *this->indices_, threads_), options,
+                             result_);
+  source_([&](const pcl::PointCloud<PointT>& part) {
+    pcl::Indices all(part.size());
+    std::iota(all.begin(), all.end(), 0);
+    refinement.add(detail::toFitPoints(part, all, threads_));
+  });
+  refinement.finish();
 }
 
 template <typename PointT>
