@@ -14,6 +14,7 @@ namespace {
 constexpr double kGate = 3.0;           // noise deviations
 constexpr double kSameSide = 0.5;       // cosine of 60 degrees
 constexpr double kPointsInCell = 6.0;   // on average, where a face was seen
+constexpr double kRounding = 1e-9;      // of an area
 constexpr double kSeenShare = 1.0 / 3;  // of the area of a face; below, it is a guess
 
 // A face in its own plane: u along a wall and v up, or x and y of a level face.
@@ -32,6 +33,7 @@ class FlatFace {
     offset_ = normal_.dot(first);
     addRing(model, face.outer);
     for (const std::vector<int>& ring : face.inner) addRing(model, ring);
+    fills_box_ = area_ > (1.0 - kRounding) * box_.volume();
   }
 
   bool isWall() const { return is_wall_; }
@@ -51,6 +53,7 @@ class FlatFace {
   // By the even-odd rule over all rings.
   bool inside(const Eigen::Vector2d& p) const {
     if (!box_.contains(p)) return false;
+    if (fills_box_) return true;
     bool odd = false;
     for (const auto& [a, b] : edges_) {
       if ((a.y() > p.y()) == (b.y() > p.y())) continue;
@@ -92,6 +95,7 @@ class FlatFace {
   double offset_ = 0.0;
   double area_ = 0.0;
   Eigen::AlignedBox2d box_;
+  bool fills_box_ = false;
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> edges_;
 };
 
@@ -156,12 +160,15 @@ class Coverage {
     covered_.assign(static_cast<std::size_t>(columns_ * rows_), 0);
   }
 
+  /// Several threads may add at once.
   void add(const Eigen::Vector2d& place) {
     const Eigen::Vector2d r = (place - face_.box().min()).cwiseQuotient(step_);
     const auto column =
         std::clamp(static_cast<std::ptrdiff_t>(r.x()), std::ptrdiff_t{0}, columns_ - 1);
     const auto row = std::clamp(static_cast<std::ptrdiff_t>(r.y()), std::ptrdiff_t{0}, rows_ - 1);
-    covered_[static_cast<std::size_t>(row * columns_ + column)] = 1;
+    char& covered = covered_[static_cast<std::size_t>(row * columns_ + column)];
+#pragma omp atomic write
+    covered = 1;
   }
 
   // Of the cells with their middle on the face; of all where there is none such.
@@ -218,21 +225,6 @@ double cellSize(const std::vector<FlatFace>& faces, const PolyhedralModel& model
   return cell;
 }
 
-// The face of each point, or -1.
-std::vector<int> facesOf(const FitPoints& points, const std::vector<FlatFace>& faces, double noise,
-                         unsigned int threads) {
-  const FaceIndex index(faces, noise);
-  std::vector<int> face_of(points.positions.size());
-  const auto work = [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      face_of[i] =
-          index.faceOf(points.positions[i].cast<double>(), points.normals[i].cast<double>());
-    }
-  };
-  detail::forEachChunk(face_of.size(), threads, work);
-  return face_of;
-}
-
 struct FacePoints {
   std::size_t count = 0;
   double squares = 0.0;  // of their distances across
@@ -244,24 +236,46 @@ struct FacePoints {
   }
 };
 
-void sumResiduals(const FitPoints& points, const std::vector<int>& face_of,
-                  const std::vector<FlatFace>& faces, unsigned int threads,
-                  PolyhedralModel& model) {
-  const std::vector<FacePoints> sums = detail::sumByChunks(
-      face_of.size(), threads, std::vector<FacePoints>(faces.size()),
-      [&](std::size_t begin, std::size_t end, std::vector<FacePoints>& part) {
-        for (std::size_t i = begin; i < end; ++i) {
-          if (face_of[i] < 0) continue;
-          const auto f = static_cast<std::size_t>(face_of[i]);
-          const double across = faces[f].across(points.positions[i].cast<double>());
-          part[f] += {1, across * across};
-        }
-      });
+// Support and residual of the faces. \return the face of each point, or -1
+std::vector<int> findFaces(const FitPoints& points, const std::vector<FlatFace>& faces,
+                           double noise, unsigned int threads, PolyhedralModel& model) {
+  const FaceIndex index(faces, noise);
+  std::vector<int> face_of(points.positions.size());
+  const std::vector<FacePoints> sums =
+      detail::sumByChunks(face_of.size(), threads, std::vector<FacePoints>(faces.size()),
+                          [&](std::size_t begin, std::size_t end, std::vector<FacePoints>& part) {
+                            for (std::size_t i = begin; i < end; ++i) {
+                              const Eigen::Vector3d p = points.positions[i].cast<double>();
+                              face_of[i] = index.faceOf(p, points.normals[i].cast<double>());
+                              if (face_of[i] < 0) continue;
+                              const auto f = static_cast<std::size_t>(face_of[i]);
+                              const double across = faces[f].across(p);
+                              part[f] += {1, across * across};
+                            }
+                          });
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const auto& [count, squares] = sums[f];
     model.faces[f].support = count;
     model.faces[f].residual = count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0;
   }
+  return face_of;
+}
+
+void measureCoverage(const FitPoints& points, const std::vector<int>& face_of,
+                     const std::vector<FlatFace>& faces, double noise, unsigned int threads,
+                     PolyhedralModel& model) {
+  const double cell = cellSize(faces, model, noise, points.positions.size());
+  std::vector<Coverage> coverages;
+  for (const FlatFace& face : faces) coverages.emplace_back(face, cell);
+  const auto work = [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (face_of[i] < 0) continue;
+      const auto f = static_cast<std::size_t>(face_of[i]);
+      coverages[f].add(faces[f].project(points.positions[i].cast<double>()));
+    }
+  };
+  detail::forEachChunk(face_of.size(), threads, work);
+  for (std::size_t f = 0; f < faces.size(); ++f) model.faces[f].coverage = coverages[f].share();
 }
 
 }  // namespace
@@ -279,18 +293,9 @@ void measureSupport(const FitPoints& points, double noise, PolyhedralModel& mode
     face.support = 0;
     face.coverage = 0.0;
   }
-  const std::vector<int> face_of = facesOf(points, faces, noise, threads);
-  sumResiduals(points, face_of, faces, threads, model);
+  const std::vector<int> face_of = findFaces(points, faces, noise, threads, model);
   if (std::any_of(face_of.begin(), face_of.end(), [](int f) { return f >= 0; })) {
-    const double cell = cellSize(faces, model, noise, points.positions.size());
-    std::vector<Coverage> coverages;
-    for (const FlatFace& face : faces) coverages.emplace_back(face, cell);
-    for (std::size_t i = 0; i < face_of.size(); ++i) {
-      if (face_of[i] < 0) continue;
-      const auto f = static_cast<std::size_t>(face_of[i]);
-      coverages[f].add(faces[f].project(points.positions[i].cast<double>()));
-    }
-    for (std::size_t f = 0; f < faces.size(); ++f) model.faces[f].coverage = coverages[f].share();
+    measureCoverage(points, face_of, faces, noise, threads, model);
   }
   for (PolyhedralFace& face : model.faces) {
     face.hypothetical = face.hypothetical || face.coverage < kSeenShare;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/filters/detail/chunks.h>
+#include <storey/surface/detail/points_by_wall.h>
 #include <storey/surface/detail/short_edges.h>
 #include <storey/surface/detail/stacked_walls.h>
 #include <storey/surface/extrusion.h>
@@ -15,8 +16,9 @@ namespace {
 
 // A boundary lies in the slice that straddles it or in one of its neighbours.
 constexpr double kHeightSearchInSlices = 1.5;
-constexpr int kFirstRounds = 2;         // without panes, which are looked for afterwards
-constexpr double kOneWall = 1.0;        // noise deviations between lines of one wall, at most
+constexpr int kFirstRounds = 2;               // without panes, which are looked for afterwards
+constexpr std::size_t kFirstPoints = 100000;  // tell lines and heights to a part of the noise
+constexpr double kOneWall = 1.0;              // noise deviations between lines of one wall, at most
 constexpr double kShortEdge = 3.0;      // noise deviations: a face as narrow is noise of others
 constexpr double kMaxNoiseRatio = 2.0;  // of the walls' residual to the noise they were found with
 
@@ -40,8 +42,7 @@ double noiseOfWalls(const std::map<int, WallFit>& walls, double guess) {
   return guess;
 }
 
-void setUpright(const Eigen::Isometry3d& upright, unsigned int threads, FitPoints& points) {
-  if (upright.matrix().isIdentity(0.0)) return;
+void turn(const Eigen::Isometry3d& upright, unsigned int threads, FitPoints& points) {
   const auto work = [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Eigen::Vector3f& p = points.positions[i];
@@ -53,12 +54,38 @@ void setUpright(const Eigen::Isometry3d& upright, unsigned int threads, FitPoint
   detail::forEachChunk(points.positions.size(), threads, work);
 }
 
+// Turns the points by what the walls lean. \return the rotation
+Eigen::Isometry3d setUpright(const std::vector<FloorplanLayer>& layers,
+                             const LayerwiseModelOptions& options, FitPoints& points,
+                             detail::PointsByWall& by_wall) {
+  if (!options.steps.upright) return Eigen::Isometry3d::Identity();
+  const Eigen::Isometry3d upright =
+      detail::fitUpright(layers, points, options.noise, options.threads, by_wall);
+  if (upright.matrix().isIdentity(0.0)) return upright;
+  turn(upright, options.threads, points);
+  by_wall = {};
+  return upright;
+}
+
+// Every point but for the same number of those between, so many that they are about `count`.
+FitPoints sampleOf(const FitPoints& points, std::size_t count) {
+  FitPoints sample;
+  const std::size_t step = 1 + (points.positions.size() - 1) / count;
+  for (std::size_t i = 0; i < points.positions.size(); i += step) {
+    sample.positions.push_back(points.positions[i]);
+    sample.normals.push_back(points.normals[i]);
+  }
+  return sample;
+}
+
 // Walls and heights well enough that each point is given to the wall and the layer that it is of.
 void fitFirst(const FitPoints& points, FitOptions options, std::vector<FloorplanLayer>& layers) {
   options.rounds = kFirstRounds;
   options.find_panes = false;
-  fitWalls(layers, points, options);
-  fitHeights(layers, points, options);
+  const bool few = points.positions.size() <= kFirstPoints;
+  const FitPoints sample = few ? FitPoints() : sampleOf(points, kFirstPoints);
+  fitWalls(layers, few ? points : sample, options);
+  fitHeights(layers, few ? points : sample, options);
 }
 
 // Walls and heights of the blocks, the solid, its checks.
@@ -71,15 +98,15 @@ void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, Layer
   fit.find_panes = options.steps.panes;
   fit.max_shift = kHeightSearchInSlices * options.slice_thickness;
   fit.threads = options.threads;
+  detail::PointsByWall by_wall;  // each in the layer that it is of, after the first fit
   fitFirst(points, fit, layers);
-  if (options.steps.upright)
-    result.upright = fitUpright(layers, points, options.noise, options.threads);
-  setUpright(result.upright, options.threads, points);
-  result.walls = fitWalls(layers, points, fit);  // now each point in the layer that it is of
+  result.upright = setUpright(layers, options, points, by_wall);
+  result.walls = detail::fitWalls(layers, points, fit, by_wall);
   if (options.steps.facets &&
       detail::uniteStackedWalls(result.walls, kOneWall * options.noise, layers)) {
-    result.walls = fitWalls(layers, points, fit);
+    result.walls = detail::fitWalls(layers, points, fit, by_wall);
   }
+  by_wall = {};
   fit.noise = noiseOfWalls(result.walls, options.noise);
   if (options.steps.unseen_walls) fitUnseenWalls(layers, points, fit.noise, result.walls);
   if (options.steps.facets) detail::dropShortEdges(layers, result.walls, kShortEdge * fit.noise);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/console/print.h>
-#include <storey/filters/detail/chunks.h>
-#include <storey/surface/detail/wall_assignment.h>
+#include <storey/surface/detail/points_by_wall.h>
 #include <storey/surface/floorplan_fitting.h>
 
 #include <Eigen/LU>
@@ -10,6 +9,9 @@
 
 namespace storey {
 namespace {
+
+using detail::PointsByWall;
+using detail::WallPlace;
 
 constexpr double kTukey = 6.0;           // noise deviations
 constexpr double kWallLean = 3e-4;       // rad; walls themselves are no more upright than this
@@ -35,28 +37,17 @@ struct Moments {
   }
 };
 
-struct Line {
-  Eigen::Vector2d reference;
-  Eigen::Vector2d normal;
-
-  void addTo(Moments& sum, const Eigen::Vector3d& point, double scale) const {
-    const Eigen::Vector2d r = point.head<2>() - reference;
-    const double across = r.dot(normal);
-    const double u = across / scale;
-    if (std::abs(u) >= 1.0) return;
-    const double weight = (1.0 - u * u) * (1.0 - u * u);
-    const Eigen::Vector3d row(1.0, normal.x() * r.y() - normal.y() * r.x(), point.z());
-    sum.rows += weight * row * row.transpose();
-    sum.products += weight * across * row;
-    sum.squares += weight * across * across;
-    ++sum.support;
-  }
-};
-
-struct LeaningWall {
-  Line line;
-  Moments moments;
-};
+void addTo(Moments& sum, const WallPlace& place, double scale) {
+  const double across = place.across;
+  const double u = across / scale;
+  if (std::abs(u) >= 1.0) return;
+  const double weight = (1.0 - u * u) * (1.0 - u * u);
+  const Eigen::Vector3d row(1.0, place.along, place.height);
+  sum.rows += weight * row * row.transpose();
+  sum.products += weight * across * row;
+  sum.squares += weight * across * across;
+  ++sum.support;
+}
 
 // c of a wall: how far it moves outwards with each unit of height.
 struct Lean {
@@ -65,35 +56,14 @@ struct Lean {
   double variance = 0.0;
 };
 
-std::vector<LeaningWall> collect(const std::vector<FloorplanLayer>& layers, const FitPoints& points,
-                                 const Eigen::Vector3d& middle, double noise,
-                                 unsigned int threads) {
-  std::map<int, Line> lines;
-  for (const FloorplanLayer& layer : layers) {
-    for (const detail::WallStretch& stretch : detail::stretchesOf(layer.plan)) {
-      if (stretch.wall < 0) continue;
-      lines.emplace(stretch.wall, Line{stretch.start - middle.head<2>(), stretch.normal()});
-    }
-  }
-  std::vector<LeaningWall> walls;
-  for (const auto& [id, line] : lines) walls.push_back({line, {}});
-  const std::vector<int> wall_of = detail::WallAssignment(layers, noise).wallsOf(points, threads);
-  const std::vector<Moments> sums = detail::sumByChunks(
-      wall_of.size(), threads, std::vector<Moments>(walls.size()),
-      [&](std::size_t begin, std::size_t end, std::vector<Moments>& part) {
-        for (std::size_t i = begin; i < end; ++i) {
-          if (wall_of[i] < 0) continue;
-          const auto k = static_cast<std::size_t>(wall_of[i]);
-          walls[k].line.addTo(part[k], points.positions[i].cast<double>() - middle, kTukey * noise);
-        }
+std::vector<Lean> leansOf(const PointsByWall& by_wall, double noise, unsigned int threads) {
+  const std::vector<Moments> sums = by_wall.sum<Moments>(
+      threads, [noise](std::size_t, const WallPlace* begin, const WallPlace* end, Moments& sum) {
+        for (const WallPlace* p = begin; p != end; ++p) addTo(sum, *p, kTukey * noise);
       });
-  for (std::size_t k = 0; k < walls.size(); ++k) walls[k].moments = sums[k];
-  return walls;
-}
-
-std::vector<Lean> leansOf(const std::vector<LeaningWall>& walls) {
   std::vector<Lean> leans;
-  for (const auto& [line, moments] : walls) {
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    const Moments& moments = sums[k];
     if (moments.support < kMinSupport) continue;
     Eigen::FullPivLU<Eigen::Matrix3d> lu(moments.rows);
     lu.setThreshold(kMinPivot);
@@ -102,7 +72,8 @@ std::vector<Lean> leansOf(const std::vector<LeaningWall>& walls) {
     const Eigen::Vector3d fit = inverse * moments.products;
     const double residual =
         std::max(0.0, moments.squares - fit.dot(moments.products)) / moments.rows(0, 0);
-    leans.push_back({line.normal, fit[2], residual * inverse(2, 2) + kWallLean * kWallLean});
+    leans.push_back(
+        {by_wall.frames()[k].normal, fit[2], residual * inverse(2, 2) + kWallLean * kWallLean});
   }
   return leans;
 }
@@ -135,27 +106,47 @@ Eigen::Vector2d commonLean(const std::vector<Lean>& leans) {
   return lean.dot(information * lean) > clear ? lean : Eigen::Vector2d::Zero();
 }
 
+// Of the box around the layers.
+Eigen::Vector3d middleOf(const std::vector<FloorplanLayer>& layers) {
+  Eigen::AlignedBox3d box;
+  for (const FloorplanLayer& layer : layers) {
+    for (const FloorplanComponent& component : layer.plan.components) {
+      for (const Eigen::Vector2d& corner : component.outer.vertices) {
+        box.extend(Eigen::Vector3d(corner.x(), corner.y(), layer.z_min));
+        box.extend(Eigen::Vector3d(corner.x(), corner.y(), layer.z_max));
+      }
+    }
+  }
+  return box.center();
+}
+
 }  // namespace
 
-Eigen::Isometry3d fitUpright(const std::vector<FloorplanLayer>& layers, const FitPoints& points,
-                             double noise, unsigned int threads) {
+Eigen::Isometry3d detail::fitUpright(const std::vector<FloorplanLayer>& layers,
+                                     const FitPoints& points, double noise, unsigned int threads,
+                                     PointsByWall& by_wall) {
   Eigen::Isometry3d upright = Eigen::Isometry3d::Identity();
   if (!(noise > 0.0) || std::isinf(noise) || points.normals.size() != points.positions.size()) {
     PCL_ERROR("[storey::fitUpright] noise is %g, and there are %zu normals for %zu points.\n",
               noise, points.normals.size(), points.positions.size());
     return upright;
   }
-  if (points.positions.empty()) return upright;
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3f& p : points.positions) middle += p.cast<double>();
-  middle /= static_cast<double>(points.positions.size());
-  const Eigen::Vector2d lean = commonLean(leansOf(collect(layers, points, middle, noise, threads)));
+  if (points.positions.empty() || layers.empty()) return upright;
+  by_wall.gather(layers, points, noise, threads);
+  const Eigen::Vector2d lean = commonLean(leansOf(by_wall, noise, threads));
   if (lean.isZero()) return upright;
   upright.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(lean.x(), lean.y(), 1.0),
                                                         Eigen::Vector3d::UnitZ())
                          .toRotationMatrix();
+  const Eigen::Vector3d middle = middleOf(layers);
   upright.translation() = middle - upright.linear() * middle;
   return upright;
+}
+
+Eigen::Isometry3d fitUpright(const std::vector<FloorplanLayer>& layers, const FitPoints& points,
+                             double noise, unsigned int threads) {
+  detail::PointsByWall by_wall;
+  return detail::fitUpright(layers, points, noise, threads, by_wall);
 }
 
 }  // namespace storey

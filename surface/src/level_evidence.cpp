@@ -79,7 +79,7 @@ class LevelWalls {
     if (going_.nearest(point.head<2>(), normal, 0.0) >= 0) return;
     const bool mixed = mixed_[static_cast<std::size_t>(nearest)] != 0;
     const bool ends = lists_[static_cast<std::size_t>(nearest)] == List::Ends;
-    (ends ? level.ends : level.starts)[mixed].push_back(point.z());
+    (ends ? level.ends : level.starts)[mixed].add(point.z());
   }
 
  private:
@@ -127,16 +127,16 @@ class LevelWalls {
 // search range and, on the side of the wall, by the height that gives the density.
 std::vector<LevelEvidence> makeLevels(const std::vector<FloorplanLayer>& layers,
                                       const FitOptions& options) {
-  std::vector<LevelEvidence> levels(layers.size() + 1);
+  std::vector<LevelEvidence> levels;
   const double reach = options.max_shift + kReference * options.noise;
   for (std::size_t k = 0; k <= layers.size(); ++k) {
-    LevelEvidence& level = levels[k];
-    level.guess = k < layers.size() ? layers[k].z_min : layers.back().z_max;
+    const double guess = k < layers.size() ? layers[k].z_min : layers.back().z_max;
     // Half of a thin layer belongs to its other boundary.
     const double below = k > 0 ? 0.5 * (layers[k - 1].z_max - layers[k - 1].z_min) : reach;
     const double above = k < layers.size() ? 0.5 * (layers[k].z_max - layers[k].z_min) : reach;
-    level.low = level.guess - std::min(reach, std::max(below, 0.5 * options.max_shift));
-    level.high = level.guess + std::min(reach, std::max(above, 0.5 * options.max_shift));
+    levels.emplace_back(guess, guess - std::min(reach, std::max(below, 0.5 * options.max_shift)),
+                        guess + std::min(reach, std::max(above, 0.5 * options.max_shift)),
+                        options.noise);
   }
   return levels;
 }
@@ -151,19 +151,25 @@ bool isCap(const std::vector<FloorplanLayer>& layers, std::size_t k, const Eigen
 
 }  // namespace
 
+LevelEvidence::LevelEvidence(double level, double from, double to, double noise)
+    : guess(level), low(from), high(to), caps(from, to, noise) {
+  ends.fill(caps);
+  starts.fill(caps);
+}
+
 LevelEvidence& LevelEvidence::operator+=(const LevelEvidence& other) {
-  const auto own = lists();
-  const auto more = other.lists();
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    own[i]->insert(own[i]->end(), more[i]->begin(), more[i]->end());
+  for (std::size_t i = 0; i < 2; ++i) {
+    ends[i] += other.ends[i];
+    starts[i] += other.starts[i];
   }
+  caps += other.caps;
   return *this;
 }
 
 std::vector<LevelEvidence> collectLevelEvidence(const std::vector<FloorplanLayer>& layers,
                                                 const FitPoints& points,
                                                 const FitOptions& options) {
-  std::vector<LevelEvidence> levels = makeLevels(layers, options);
+  const std::vector<LevelEvidence> levels = makeLevels(layers, options);
   std::vector<LevelWalls> walls;
   const std::size_t n = layers.size();
   for (std::size_t k = 0; k <= n; ++k) {
@@ -182,23 +188,16 @@ std::vector<LevelEvidence> collectLevelEvidence(const std::vector<FloorplanLayer
       if (of_wall) {
         walls[k].note(p, normal.head<2>().cast<double>(), *level);
       } else if (isCap(layers, k, p.head<2>(), normal.z() > 0.0f)) {
-        level->caps.push_back(p.z());
+        level->caps.add(p.z());
       }
     }
   };
-  levels = sumByChunks(points.positions.size(), options.threads, levels,
-                       [&](std::size_t begin, std::size_t end, std::vector<LevelEvidence>& notes) {
-                         for (std::size_t i = begin; i < end; ++i) {
-                           note(points.positions[i], points.normals[i], notes);
-                         }
-                       });
-#pragma omp parallel for num_threads(threadsFor(options.threads)) schedule(dynamic, 1)
-  for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(levels.size()); ++k) {
-    for (auto* list : levels[static_cast<std::size_t>(k)].lists()) {
-      std::sort(list->begin(), list->end());
-    }
-  }
-  return levels;
+  return sumByChunks(points.positions.size(), options.threads, levels,
+                     [&](std::size_t begin, std::size_t end, std::vector<LevelEvidence>& notes) {
+                       for (std::size_t i = begin; i < end; ++i) {
+                         note(points.positions[i], points.normals[i], notes);
+                       }
+                     });
 }
 
 }  // namespace storey::detail

@@ -20,8 +20,14 @@ constexpr double kClearTails = 4.0;     // deviations: tails that are really the
 constexpr double kMaxTails = 0.3;
 constexpr double kAtEnd = 1e-3;  // noise deviations from where the search ends
 
-double count(std::vector<double>::const_iterator from, std::vector<double>::const_iterator to) {
-  return static_cast<double>(to - from);
+// Numbers of heights: of the first that is at z or above, and of the first above it.
+std::size_t from(const CountedHeights& sorted, double z) {
+  const auto& all = sorted.heights;
+  return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), z) - all.begin());
+}
+std::size_t beyond(const CountedHeights& sorted, double z) {
+  const auto& all = sorted.heights;
+  return static_cast<std::size_t>(std::upper_bound(all.begin(), all.end(), z) - all.begin());
 }
 
 // Points beyond a step, without the strays; their variance; how many there were if all had tails.
@@ -41,7 +47,12 @@ struct TailCount {
 // The logarithm of a product of many factors, with few calls of the logarithm.
 class LogProduct {
  public:
-  void multiply(double factor) {  // within 1e-100 and 1e100
+  // The factor is within 1e-100 and 1e100, and comes `count` times.
+  void multiply(double factor, double count) {
+    if (count > 1.0) {
+      sum_ += count * std::log(factor);
+      return;
+    }
     product_ *= factor;
     if (product_ > 1e-200 && product_ < 1e200) return;
     sum_ += std::log(product_);
@@ -57,35 +68,33 @@ class LogProduct {
 // Heights of points of walls that end at one level. Those of walls that start there come mirrored.
 class StepLikelihood {
  public:
-  // The level lies between `from` and the top of the window.
-  StepLikelihood(std::vector<double> heights, double low, double high, double from,
+  // The level lies between `lowest` and the top of the window.
+  StepLikelihood(CountedHeights points, double low, double high, double lowest,
                  const BlurredStep& step)
-      : heights_(std::move(heights)), low_(low), high_(high), step_(step) {
-    rise_ = riseUpTo(from - kBlur * step.noise);
+      : points_(std::move(points)), low_(low), high_(high), step_(step) {
+    rise_ = riseUpTo(lowest - kBlur * step.noise);
   }
 
   double at(double z) const {
-    if (heights_.empty()) return 0.0;
+    if (points_.size() == 0) return 0.0;
     const double stray = strayAt(z);
     const double reach = step_.reach() * step_.noise;
-    const auto first = std::lower_bound(heights_.begin(), heights_.end(), z - reach);
-    const auto last = std::upper_bound(first, heights_.end(), z + reach);
+    const std::size_t last = beyond(points_, z + reach);
     LogProduct near;
-    for (auto zi = first; zi != last; ++zi) {
-      near.multiply((1.0 - stray) * step_.at((z - *zi) / step_.noise) + stray);
+    for (std::size_t i = from(points_, z - reach); i < last; ++i) {
+      const double off = (z - points_.heights[i]) / step_.noise;
+      near.multiply((1.0 - stray) * step_.at(off) + stray, points_.counts[i]);
     }
-    return count(heights_.begin(), heights_.end()) *
-               std::log(lengthOf(low_, high_) / lengthSeen(z, stray)) +
-           count(last, heights_.end()) * std::log(stray) + near.log();
+    return points_.total() * std::log(lengthOf(low_, high_) / lengthSeen(z, stray)) +
+           (points_.total() - points_.before[last]) * std::log(stray) + near.log();
   }
 
   // Fisher's. The density comes from the same points, which costs the second term.
   double information(double z) const {
-    if (heights_.empty()) return 0.0;
+    if (points_.size() == 0) return 0.0;
     const double stray = strayAt(z);
     const double seen = lengthSeen(z, stray);
-    const double density =
-        count(heights_.begin(), heights_.end()) * std::exp(rise_ * (z - low_)) / seen;
+    const double density = points_.total() * std::exp(rise_ * (z - low_)) / seen;
     const double lost = (1.0 - stray) * (1.0 - stray) / seen;
     return std::max(0.0, density * (stepInformation(step_, stray) / step_.noise - lost));
   }
@@ -95,25 +104,24 @@ class StepLikelihood {
     const double far = z + kTailReach * step_.noise;
     const double before = z - kBlur * step_.noise;
     if (before <= low_ || high_ - far < far - near) return {};
-    const auto begin = std::upper_bound(heights_.begin(), heights_.end(), near);
-    const auto end = std::upper_bound(begin, heights_.end(), far);
-    const double strays = count(end, heights_.end()) / (high_ - far) * (far - near);
-    const double own =
-        count(heights_.begin(), std::lower_bound(heights_.begin(), heights_.end(), before)) /
-        lengthOf(low_, before, z);
+    const double strays = countBeyond(far) / (high_ - far) * (far - near);
+    const double own = points_.below(before) / lengthOf(low_, before, z);
+    const double between = countBeyond(near) - countBeyond(far);
     const BlurredStep all{step_.noise, 1.0};
-    return {count(begin, end) - strays, count(begin, end) + strays,
-            own * all.tailsBetween(near - z, far - z)};
+    return {between - strays, between + strays, own * all.tailsBetween(near - z, far - z)};
   }
 
  private:
-  // The relative change of density with height, from the points up to there; 0 if it is not clear.
-  double riseUpTo(double to) const {
-    const auto end = std::upper_bound(heights_.begin(), heights_.end(), to);
-    const double n = count(heights_.begin(), end);
+  double countBeyond(double z) const { return points_.total() - points_.below(z); }
+
+  // The relative change of density with height, from the bins up to there; 0 if it is not clear.
+  double riseUpTo(double most) const {
+    const double to = low_ + std::floor((most - low_) / points_.width) * points_.width;
+    const std::size_t end = from(points_, to);
+    const double n = points_.before[end];
     if (n == 0.0 || to <= low_) return 0.0;
     double mean = 0.0;
-    for (auto z = heights_.begin(); z != end; ++z) mean += *z / n;
+    for (std::size_t i = 0; i < end; ++i) mean += points_.heights[i] * points_.counts[i] / n;
     // A density 1 + g x over a length L has its mean at g L^2 / 12 from the middle, give or take
     // L / sqrt(12 n).
     const double length = to - low_;
@@ -139,19 +147,15 @@ class StepLikelihood {
   // Points of neighbours that are taken for the wall's own go on beyond its end.
   double strayAt(double z) const {
     const double before = z - kBlur * step_.noise;
-    const double beyond = z + kBlur * step_.noise;
-    if (before <= low_ || beyond >= high_) return kLeastStray;
-    const double own =
-        count(heights_.begin(), std::lower_bound(heights_.begin(), heights_.end(), before)) /
-        lengthOf(low_, before, z);
-    const double foreign =
-        (count(std::upper_bound(heights_.begin(), heights_.end(), beyond), heights_.end()) -
-         own * step_.tailsBetween(beyond - z, high_ - z)) /
-        lengthOf(beyond, high_, z);
+    const double behind = z + kBlur * step_.noise;
+    if (before <= low_ || behind >= high_) return kLeastStray;
+    const double own = points_.below(before) / lengthOf(low_, before, z);
+    const double foreign = (countBeyond(behind) - own * step_.tailsBetween(behind - z, high_ - z)) /
+                           lengthOf(behind, high_, z);
     return foreign < own ? std::max(kLeastStray, foreign / own) : 1.0;
   }
 
-  std::vector<double> heights_;  // ascending
+  CountedHeights points_;
   double low_;
   double high_;
   BlurredStep step_;
@@ -161,36 +165,34 @@ class StepLikelihood {
 // Heights of the points of level faces: most lie at the level, the others anywhere in the window.
 class CapLikelihood {
  public:
-  CapLikelihood(std::vector<double> heights, double window, double noise)
-      : heights_(std::move(heights)), window_(window), noise_(noise) {
-    std::sort(heights_.begin(), heights_.end());
-  }
+  CapLikelihood(CountedHeights points, double window, double noise)
+      : points_(std::move(points)), window_(window), noise_(noise) {}
 
   double at(double z) const {
     const auto [first, last] = near(z);
     LogProduct product;
-    for (auto zi = first; zi != last; ++zi) product.multiply(ratio(*zi - z) + kStrayCap);
-    return product.log() +
-           (count(heights_.begin(), heights_.end()) - count(first, last)) * std::log(kStrayCap);
+    for (std::size_t i = first; i < last; ++i) {
+      product.multiply(ratio(points_.heights[i] - z) + kStrayCap, points_.counts[i]);
+    }
+    const double others = points_.total() - points_.before[last] + points_.before[first];
+    return product.log() + others * std::log(kStrayCap);
   }
 
   double information(double z) const {
     const auto [first, last] = near(z);
     double sum = 0.0;
-    for (auto zi = first; zi != last; ++zi) {
-      sum += ratio(*zi - z) / (ratio(*zi - z) + kStrayCap) / (noise_ * noise_);
+    for (std::size_t i = first; i < last; ++i) {
+      const double r = ratio(points_.heights[i] - z);
+      sum += points_.counts[i] * r / (r + kStrayCap) / (noise_ * noise_);
     }
     return sum;
   }
 
  private:
-  using Heights = std::vector<double>;
-
   // Those that a face at this height can have: the density of the others is 0 to rounding.
-  std::pair<Heights::const_iterator, Heights::const_iterator> near(double z) const {
+  std::pair<std::size_t, std::size_t> near(double z) const {
     const double reach = kCapReach * noise_;
-    const auto first = std::lower_bound(heights_.begin(), heights_.end(), z - reach);
-    return {first, std::upper_bound(first, heights_.end(), z + reach)};
+    return {from(points_, z - reach), beyond(points_, z + reach)};
   }
 
   // Density of a point of the face over that of one from anywhere.
@@ -198,25 +200,19 @@ class CapLikelihood {
     return (1.0 - kStrayCap) * bellAt(off / noise_) * window_ / noise_;
   }
 
-  Heights heights_;  // ascending
+  CountedHeights points_;
   double window_;
   double noise_;
 };
 
-std::vector<double> mirrored(const std::vector<double>& heights) {
-  std::vector<double> result;
-  for (auto z = heights.rbegin(); z != heights.rend(); ++z) result.push_back(-*z);
-  return result;
-}
-
 // The walls of all four lists of one level.
 class Steps {
  public:
-  Steps(const LevelEvidence& level, double from, double to, const BlurredStep& step) {
+  Steps(const LevelEvidence& level, double lowest, double highest, const BlurredStep& step) {
     for (std::size_t i = 0; i < 2; ++i) {
-      ends_.emplace_back(level.ends[i], level.low, level.high, from, step);
-      starts_.emplace_back(mirrored(level.starts[i]), -level.high, -level.low, -to, step);
-      size_ += level.ends[i].size() + level.starts[i].size();
+      ends_.emplace_back(level.ends[i].ascending(), level.low, level.high, lowest, step);
+      starts_.emplace_back(level.starts[i].mirrored(), -level.high, -level.low, -highest, step);
+      size_ += level.ends[i].total() + level.starts[i].total();
     }
   }
 
@@ -251,8 +247,8 @@ LevelFitting::LevelFitting(const LevelEvidence& level, double noise, double max_
       noise_(noise),
       scan_(std::max(level.low + noise, level.guess - max_shift),
             std::min(level.high - noise, level.guess + max_shift), noise) {
-  if (scan_.empty() || level.caps.empty()) return;
-  const CapLikelihood caps(level.caps, level.high - level.low, noise);
+  if (scan_.empty() || level.caps.total() == 0) return;
+  const CapLikelihood caps(level.caps.ascending(), level.high - level.low, noise);
   const auto ofCaps = [&](double z) { return caps.at(z); };
   cap_values_ = scan_.valuesOf(ofCaps, threads);
   // Points of a slanted roof lie at no level.
@@ -262,13 +258,13 @@ LevelFitting::LevelFitting(const LevelEvidence& level, double noise, double max_
 HeightFit LevelFitting::fit(double tails) const {
   HeightFit fit;
   fit.z = level_.guess;
-  fit.cap_support = level_.caps.size();
+  fit.cap_support = level_.caps.total();
   if (scan_.empty()) return fit;
   const Steps steps(level_, scan_.from(), scan_.to(), {noise_, tails});
   fit.wall_support = steps.size();
   const bool flat = !cap_values_.empty();
-  const CapLikelihood caps(flat ? level_.caps : std::vector<double>(), level_.high - level_.low,
-                           noise_);
+  const CapLikelihood caps(flat ? level_.caps.ascending() : CountedHeights(),
+                           level_.high - level_.low, noise_);
   std::vector<double> values = scan_.valuesOf([&](double z) { return steps.at(z); }, 1);
   for (std::size_t i = 0; flat && i < values.size(); ++i) values[i] += cap_values_[i];
   const ScanMaximum best =

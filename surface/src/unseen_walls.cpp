@@ -68,13 +68,11 @@ struct Corner {
 // What the points of the neighbor tell of where the wall is, as of a level: across the wall.
 detail::LevelEvidence evidenceOf(const Corner& corner, const WallFit& wall, const FitPoints& points,
                                  double noise) {
-  detail::LevelEvidence evidence;
   const double slope = wall.normal.dot(corner.along);
   const double reach =
       std::min((kReach + kMaxShift) * noise, 0.5 * corner.length * std::abs(slope));
-  evidence.low = -reach;
-  evidence.high = reach;
-  std::vector<double>& heights = (slope < 0.0 ? evidence.ends : evidence.starts)[0];
+  detail::LevelEvidence evidence(0.0, -reach, reach, noise);
+  detail::HeightHistogram& heights = (slope < 0.0 ? evidence.ends : evidence.starts)[0];
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     const Eigen::Vector3d p = points.positions[i].cast<double>();
     if (p.z() < corner.z_min || p.z() > corner.z_max) continue;
@@ -85,9 +83,8 @@ detail::LevelEvidence evidenceOf(const Corner& corner, const WallFit& wall, cons
     const Eigen::Vector2d normal = n.head<2>().cast<double>();
     if (!detail::isWallNormal(n) || normal.dot(corner.normal) < kSameSense * normal.norm())
       continue;
-    heights.push_back(across);
+    heights.add(across);
   }
-  std::sort(heights.begin(), heights.end());
   return evidence;
 }
 

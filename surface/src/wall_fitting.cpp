@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/console/print.h>
-#include <storey/filters/detail/chunks.h>
-#include <storey/surface/detail/wall_assignment.h>
+#include <storey/surface/detail/points_by_wall.h>
 #include <storey/surface/detail/wall_corners.h>
 #include <storey/surface/detail/wall_panes.h>
 #include <storey/surface/floorplan_fitting.h>
@@ -50,8 +49,8 @@ struct Wall {
   int id = -1;
   Eigen::Vector2d reference;
   Eigen::Vector2d normal;
-  Moments sums;
-  detail::WallPanes panes;
+  Moments sums = {};
+  detail::WallPanes panes = {};
 
   Eigen::Vector2d tangent() const { return {-normal.y(), normal.x()}; }
   double spread() const { return sums.ss - sums.s * sums.s / sums.w; }  // of the points along it
@@ -68,47 +67,55 @@ struct Wall {
 
 using Walls = std::vector<Wall>;
 
-// The lines as the layers have them, by id: of each wall its longest edge.
-Walls wallsOf(const std::vector<FloorplanLayer>& layers) {
-  std::map<int, detail::WallStretch> longest;
-  for (const FloorplanLayer& layer : layers) {
-    for (const detail::WallStretch& stretch : detail::stretchesOf(layer.plan)) {
-      if (stretch.wall < 0) continue;
-      const auto [known, added] = longest.emplace(stretch.wall, stretch);
-      if (!added && stretch.length > known->second.length) known->second = stretch;
-    }
-  }
+// The lines by which the points were given to the walls.
+Walls wallsOf(const std::vector<detail::WallFrame>& frames) {
   Walls walls;
-  for (const auto& [id, stretch] : longest) {
-    Wall wall;
-    wall.id = id;
-    wall.reference = stretch.start + 0.5 * stretch.length * stretch.tangent;
-    wall.normal = stretch.normal();
-    walls.push_back(wall);
+  for (const detail::WallFrame& frame : frames) {
+    walls.push_back({frame.id, frame.reference, frame.normal});
   }
   return walls;
 }
 
-// The points, and which wall each is of: its place in `Walls`, or -1.
-struct AssignedPoints {
-  const FitPoints& points;
-  std::vector<int> walls;
+// From the frame that the points of a wall were gathered in to that of its line by now.
+class FrameChange {
+ public:
+  FrameChange(const detail::WallFrame& from, const Wall& to)
+      : along_(partsOf(from, to, to.tangent())), across_(partsOf(from, to, to.normal)) {}
+
+  double along(const detail::WallPlace& p) const { return sum(along_, p); }
+  double across(const detail::WallPlace& p) const { return sum(across_, p); }
+
+ private:
+  static Eigen::Vector3d partsOf(const detail::WallFrame& from, const Wall& to,
+                                 const Eigen::Vector2d& axis) {
+    return {axis.dot(from.reference - to.reference), axis.dot(from.tangent()),
+            axis.dot(from.normal)};
+  }
+  static double sum(const Eigen::Vector3d& parts, const detail::WallPlace& p) {
+    return parts[0] + parts[1] * static_cast<double>(p.along) +
+           parts[2] * static_cast<double>(p.across);
+  }
+
+  Eigen::Vector3d along_;
+  Eigen::Vector3d across_;
+};
+
+// The points, gathered by wall, and the lines that are fitted to them.
+struct WallPoints {
+  const detail::PointsByWall& by_wall;
   unsigned int threads;
 
   // Sums over the points of each wall what `work(wall, along, across, sum)` adds.
   template <typename Sum, typename Work>
-  std::vector<Sum> sum(const Walls& lines, const Work& work) const {
-    return detail::sumByChunks(
-        walls.size(), threads, std::vector<Sum>(lines.size()),
-        [&](std::size_t begin, std::size_t end, std::vector<Sum>& sums) {
-          for (std::size_t i = begin; i < end; ++i) {
-            if (walls[i] < 0) continue;
-            const auto k = static_cast<std::size_t>(walls[i]);
-            const Wall& wall = lines[k];
-            const Eigen::Vector2d r = points.positions[i].head<2>().cast<double>() - wall.reference;
-            work(wall, r.dot(wall.tangent()), r.dot(wall.normal), sums[k]);
-          }
-        });
+  std::vector<Sum> sum(const Walls& walls, const Work& work) const {
+    using Place = detail::WallPlace;
+    return by_wall.sum<Sum>(threads,
+                            [&](std::size_t k, const Place* begin, const Place* end, Sum& total) {
+                              const FrameChange change(by_wall.frames()[k], walls[k]);
+                              for (const Place* p = begin; p != end; ++p) {
+                                work(walls[k], change.along(*p), change.across(*p), total);
+                              }
+                            });
   }
 };
 
@@ -123,7 +130,7 @@ struct Residuals {
   }
 };
 
-void findPanes(const AssignedPoints& points, double noise, Walls& walls) {
+void findPanes(const WallPoints& points, double noise, Walls& walls) {
   const std::vector<Residuals> residuals =
       points.sum<Residuals>(walls, [noise](const Wall&, double, double across, Residuals& sum) {
         sum.histogram.add(across / noise);
@@ -141,7 +148,7 @@ void findPanes(const AssignedPoints& points, double noise, Walls& walls) {
 }
 
 // Tukey's weights; where the wall has panes, one step of expectation and maximisation.
-void sumMoments(const AssignedPoints& points, double noise, Walls& walls) {
+void sumMoments(const WallPoints& points, double noise, Walls& walls) {
   const std::vector<Moments> sums = points.sum<Moments>(
       walls, [noise](const Wall& wall, double along, double across, Moments& sum) {
         if (wall.panes.in_use) {
@@ -270,8 +277,9 @@ void shareDirections(Walls& walls, std::map<int, WallFit>& fits) {
 
 }  // namespace
 
-std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPoints& points,
-                                const FitOptions& options) {
+std::map<int, WallFit> detail::fitWalls(std::vector<FloorplanLayer>& layers,
+                                        const FitPoints& points, const FitOptions& options,
+                                        PointsByWall& by_wall) {
   if (!(options.noise > 0.0) || std::isinf(options.noise)) {
     PCL_ERROR("[storey::fitWalls] noise is %g, expected finite and > 0.\n", options.noise);
     return {};
@@ -281,21 +289,28 @@ std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPo
               points.positions.size());
     return {};
   }
+  if (layers.empty()) return {};
   std::map<int, WallFit> fits;
+  Walls walls;
   for (int round = 0; round < options.rounds; ++round) {
-    Walls walls = wallsOf(layers);
-    const AssignedPoints assigned{
-        points, detail::WallAssignment(layers, options.noise).wallsOf(points, options.threads),
-        options.threads};
+    const bool anew = by_wall.gather(layers, points, options.noise, options.threads);
+    if (anew || round == 0) walls = wallsOf(by_wall.frames());
+    const WallPoints of_walls{by_wall, options.threads};
     if (options.find_panes && round > 0) {
-      findPanes(assigned, options.noise, walls);  // about lines that are nearly right
+      findPanes(of_walls, options.noise, walls);  // about lines that are nearly right
     }
-    sumMoments(assigned, options.noise, walls);
+    sumMoments(of_walls, options.noise, walls);
     fits = solve(walls, options.noise);
     if (options.share_directions) shareDirections(walls, fits);
-    detail::moveCorners(layers, fits);
+    moveCorners(layers, fits);
   }
   return fits;
+}
+
+std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPoints& points,
+                                const FitOptions& options) {
+  detail::PointsByWall by_wall;
+  return detail::fitWalls(layers, points, options, by_wall);
 }
 
 }  // namespace storey

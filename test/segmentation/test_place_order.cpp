@@ -66,6 +66,19 @@ TEST(PlaceOrder, PointsOneAfterTheOtherAreNear) {
   EXPECT_LT(sum / static_cast<double>(points.size()), 0.1 * 0.52 * 70.0);
 }
 
+// Random points are half of the extent apart; those of a column of cells half a cell.
+TEST(PlaceOrder, IsSeenWhereItIs) {
+  pcl::PointCloud<pcl::PointXYZ> cloud = randomCloud(500000);
+  EXPECT_FALSE(areByPlace(cloud, allOf(cloud.size())));
+  const pcl::Indices order = orderByPlace(cloud, allOf(cloud.size()), 2);
+  EXPECT_TRUE(areByPlace(cloud, order));
+  cloud[static_cast<std::size_t>(order[0])].x = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(areByPlace(cloud, order));
+  for (pcl::PointXYZ& p : cloud) p.x = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(areByPlace(cloud, order));
+  EXPECT_FALSE(areByPlace(cloud, {}));
+}
+
 TEST(PointBlocks, NoPointNearALineIsPassedOver) {
   const pcl::PointCloud<pcl::PointXYZ> cloud = randomCloud(300000);  // a block of 64 a column
   const auto points = toWallPoints(cloud, orderByPlace(cloud, allOf(cloud.size()), 2));

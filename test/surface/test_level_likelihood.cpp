@@ -62,12 +62,9 @@ std::vector<double> drawEnding(const Spread& spread, double lambda, std::mt19937
   return heights;
 }
 
-LevelEvidence levelOf(std::vector<double> ends, double guess) {
-  LevelEvidence level;
-  level.guess = guess;
-  level.low = kLow;
-  level.high = kHigh;
-  level.ends[0] = std::move(ends);
+LevelEvidence levelOf(const std::vector<double>& ends, double guess) {
+  LevelEvidence level(guess, kLow, kHigh, kSigma);
+  for (const double z : ends) level.ends[0].add(z);
   return level;
 }
 
@@ -115,11 +112,10 @@ INSTANTIATE_TEST_SUITE_P(Spreads, LevelsOf,
 TEST(LevelLikelihood, WallsThatStartAreThoseThatEndUpsideDown) {
   std::mt19937 random(2);
   for (const Spread& spread : {Spread{}, Spread{0.2, 0.0}, Spread{-0.2, 0.1}}) {
-    const LevelEvidence level = levelOf(drawEnding(spread, kLambda, random), 0.1);
+    const std::vector<double> heights = drawEnding(spread, kLambda, random);
+    const LevelEvidence level = levelOf(heights, 0.1);
     LevelEvidence mirrored = levelOf({}, -0.1);
-    for (auto z = level.ends[0].rbegin(); z != level.ends[0].rend(); ++z) {
-      mirrored.starts[0].push_back(-*z);
-    }
+    for (const double z : heights) mirrored.starts[0].add(-z);
     const HeightFit fit = LevelFitting(level, kSigma, kMaxShift).fit(spread.tails);
     const HeightFit other = LevelFitting(mirrored, kSigma, kMaxShift).fit(spread.tails);
     EXPECT_NEAR(other.z, -fit.z, 1e-3 * kSigma);
@@ -183,8 +179,7 @@ TEST(LevelLikelihood, StraysAreNoTails) {
     for (LevelEvidence& level : sample.levels) {
       std::uniform_real_distribution<double> anywhere(kLow, kHigh);
       const int strays = std::poisson_distribution<int>(0.1 * kLambda * (kHigh - kLow))(random);
-      for (int i = 0; i < strays; ++i) level.ends[0].push_back(anywhere(random));
-      std::sort(level.ends[0].begin(), level.ends[0].end());
+      for (int i = 0; i < strays; ++i) level.ends[0].add(anywhere(random));
     }
     EXPECT_EQ(tailsOf(sample.levels, sample.fits, kSigma), 0.0);
   }

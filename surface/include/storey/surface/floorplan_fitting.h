@@ -82,8 +82,8 @@ std::vector<HeightFit> fitHeights(std::vector<FloorplanLayer>& layers, const Fit
 /// How far the walls lean together: what is left of the cloud's tilt when its walls are known.
 /// Each wall is fitted as r = a + b s + c z (s along it, r across), robustly, and the direction
 /// (u, 1) of the vertical from c = n . u over all walls, again robustly: single walls may lean.
-/// \return the rotation about the middle of the points that sets them upright; the identity where
-/// the lean is below four standard deviations
+/// \return the rotation about the middle of the layers that sets the points upright; the identity
+/// where the lean is below four standard deviations
 Eigen::Isometry3d fitUpright(const std::vector<FloorplanLayer>& layers, const FitPoints& points,
                              double noise, unsigned int threads = 0);
 

@@ -6,6 +6,7 @@
 #include <storey/filters/detail/chunks.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -59,6 +60,31 @@ pcl::Indices orderByPlace(const pcl::PointCloud<PointT>& cloud, const pcl::Indic
     if (cell[i] != kNowhere) order[place[cell[i]]++] = indices[i];
   }
   return order;
+}
+
+/// Whether the points come in such an order already, or along another curve: judged by the steps
+/// from a thousand of them, evenly drawn, to the next.
+template <typename PointT>
+bool areByPlace(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices) {
+  constexpr std::size_t kDrawn = 1000;
+  constexpr float kShortStep = 1.0f / 64.0f;  // of the extent: a cell of `orderByPlace`
+  if (indices.size() < kDrawn) return false;
+  const auto placeOf = [&](std::size_t k) -> Eigen::Vector3f {
+    return cloud[static_cast<std::size_t>(indices[k])].getVector3fMap();
+  };
+  Eigen::AlignedBox3f box;
+  float steps = 0.0f;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kDrawn; ++i) {
+    const std::size_t k = i * (indices.size() - 1) / kDrawn;
+    const Eigen::Vector3f from = placeOf(k);
+    const Eigen::Vector3f to = placeOf(k + 1);
+    if (!from.allFinite() || !to.allFinite()) continue;
+    box.extend(from);
+    steps += (to - from).norm();
+    ++count;
+  }
+  return count > 0 && steps < kShortStep * static_cast<float>(count) * box.diagonal().norm();
 }
 
 }  // namespace storey::detail

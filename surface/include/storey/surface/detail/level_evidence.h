@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <storey/surface/detail/height_histogram.h>
 #include <storey/surface/floorplan_fitting.h>
 
 #include <array>
@@ -8,26 +9,20 @@
 
 namespace storey::detail {
 
-/// What the points tell of one level: heights, each list ascending. Those of walls are of points
-/// between `low` and `high`, the window that the density of the points is taken from.
+/// What the points between `low` and `high` tell of one level.
 struct LevelEvidence {
-  double guess = 0.0;
-  double low = 0.0;
-  double high = 0.0;
+  LevelEvidence(double level, double from, double to, double noise);
+
+  double guess;
+  double low;
+  double high;
   /// Points of walls that end at the level, and of those that start there; [1]: of walls with one
   /// of the other layer so close beside that points of both mix.
-  std::array<std::vector<double>, 2> ends;
-  std::array<std::vector<double>, 2> starts;
-  std::vector<double> caps;  ///< points of the level faces: roofs, grounds, ceilings
+  std::array<HeightHistogram, 2> ends;
+  std::array<HeightHistogram, 2> starts;
+  HeightHistogram caps;  ///< points of the level faces: roofs, grounds, ceilings
 
-  std::array<std::vector<double>*, 5> lists() {
-    return {&ends[0], &ends[1], &starts[0], &starts[1], &caps};
-  }
-  std::array<const std::vector<double>*, 5> lists() const {
-    return {&ends[0], &ends[1], &starts[0], &starts[1], &caps};
-  }
-  LevelEvidence& operator+=(
-      const LevelEvidence& other);  ///< the points of the same level, unsorted
+  LevelEvidence& operator+=(const LevelEvidence& other);  ///< the points of the same level
 };
 
 /// The evidence of all levels in one pass over the points: level k is the foot of layer k, the last

@@ -13,6 +13,7 @@
 #include <storey/surface/mesh_export.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 // The base class searches: without these a point type unknown to PCL does not link.
@@ -50,24 +51,45 @@ inline bool layersAscend(const std::vector<FloorplanLayer>& layers) {
   return true;
 }
 
+/// Leaves out the points that are not finite.
+inline void keepFinite(FitPoints& points) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.positions.size(); ++i) {
+    if (!points.positions[i].allFinite()) continue;
+    points.positions[kept] = points.positions[i];
+    points.normals[kept] = points.normals[i];
+    ++kept;
+  }
+  points.positions.resize(kept);
+  points.normals.resize(kept);
+}
+
 /// The finite points with their normals, neighbours near each other; a normal that is not finite
 /// becomes zero (unknown).
 template <typename PointT>
 FitPoints toFitPoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
                       unsigned int threads) {
-  const pcl::Indices order = orderByPlace(cloud, indices, threads);
+  pcl::Indices sorted;
+  const bool is_sorted = areByPlace(cloud, indices);
+  if (!is_sorted) sorted = orderByPlace(cloud, indices, threads);
+  const pcl::Indices& order = is_sorted ? indices : sorted;
   FitPoints points;
   points.positions.resize(order.size());
   points.normals.resize(order.size());
+  std::atomic<bool> all_finite = true;
   forEachChunk(order.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    bool finite = true;
     for (std::size_t k = begin; k < end; ++k) {
       const PointT& p = cloud[static_cast<std::size_t>(order[k])];
       points.positions[k] = {p.x, p.y, p.z};
       points.normals[k] = pcl::isNormalFinite(p)
                               ? Eigen::Vector3f(p.normal_x, p.normal_y, p.normal_z)
                               : Eigen::Vector3f(Eigen::Vector3f::Zero());
+      finite = finite && pcl::isXYZFinite(p);
     }
+    if (!finite) all_finite = false;
   });
+  if (!all_finite) keepFinite(points);
   return points;
 }
 
