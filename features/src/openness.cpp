@@ -11,7 +11,7 @@
 namespace storey::detail {
 namespace {
 
-constexpr int kDirections = 96;        // over the upper hemisphere
+constexpr int kDirections = 64;        // over the upper hemisphere
 constexpr double kSteep = 0.5;         // d.z of a steep ray, 30 degrees
 constexpr double kOffWall = 0.25;      // |d.n| of a ray that leaves its wall soon enough
 constexpr double kGrazing = 0.1;       // |d.n| below which a ray does not tell the side it meets

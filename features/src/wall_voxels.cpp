@@ -25,11 +25,12 @@ double quantile(std::vector<double>& values, double share) {
   return *place;
 }
 
-VoxelGrid3 gridOver(const std::vector<Eigen::Vector3d>& positions, double side) {
+VoxelGrid3 gridOver(const std::vector<Eigen::Vector3d>& positions, double side, int num_threads) {
   Eigen::Array3d low;
   Eigen::Array3d high;
-  std::vector<double> values(positions.size());
+#pragma omp parallel for num_threads(num_threads) schedule(dynamic, 1)
   for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values(positions.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
       values[i] = positions[i][axis];
     }
@@ -61,7 +62,7 @@ void classify(const Eigen::Matrix3d& spread, OccupiedVoxel& voxel) {
 }
 
 void fillVoxels(const std::vector<Eigen::Vector3d>& positions,
-                const std::vector<Eigen::Vector3d>& normals, WallVoxels& result) {
+                const std::vector<Eigen::Vector3d>& normals, int num_threads, WallVoxels& result) {
   result.id_of_cell.assign(result.grid.size(), -1);
   std::vector<Eigen::Matrix3d> spread;  // sum n n^T of each voxel
   std::vector<double> counts;
@@ -82,7 +83,9 @@ void fillVoxels(const std::vector<Eigen::Vector3d>& positions,
     result.voxels[v].center += positions[i];
     counts[v] += 1.0;
   }
-  for (std::size_t v = 0; v < result.voxels.size(); ++v) {
+#pragma omp parallel for num_threads(num_threads) schedule(dynamic, 256)
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(result.voxels.size()); ++i) {
+    const auto v = static_cast<std::size_t>(i);
     result.voxels[v].center /= counts[v];
     classify(spread[v], result.voxels[v]);
   }
@@ -137,8 +140,10 @@ void growPatch(WallVoxels& all, int seed_id) {
 }
 
 // Patches that touch in one plane: they are one wall, cut only by the size of a patch.
-void findFlushPatches(WallVoxels& all) {
-  for (WallPatch& patch : all.patches) {
+void findFlushPatches(int num_threads, WallVoxels& all) {
+#pragma omp parallel for num_threads(num_threads) schedule(dynamic, 16)
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(all.patches.size()); ++i) {
+    WallPatch& patch = all.patches[static_cast<std::size_t>(i)];
     for (const int id : patch.voxels) {
       const OccupiedVoxel& voxel = all.voxels[static_cast<std::size_t>(id)];
       forNeighbors(all, voxel, [&](int other_id) {
@@ -157,19 +162,20 @@ void findFlushPatches(WallVoxels& all) {
 }  // namespace
 
 WallVoxels buildWallVoxels(const std::vector<Eigen::Vector3d>& positions,
-                           const std::vector<Eigen::Vector3d>& normals, double side) {
+                           const std::vector<Eigen::Vector3d>& normals, double side,
+                           int num_threads) {
   WallVoxels result;
   if (positions.empty()) {
     return result;
   }
-  result.grid = gridOver(positions, side);
-  fillVoxels(positions, normals, result);
+  result.grid = gridOver(positions, side, num_threads);
+  fillVoxels(positions, normals, num_threads, result);
   for (std::size_t v = 0; v < result.voxels.size(); ++v) {
     if (result.voxels[v].kind == VoxelKind::Wall && result.voxels[v].patch < 0) {
       growPatch(result, static_cast<int>(v));
     }
   }
-  findFlushPatches(result);
+  findFlushPatches(num_threads, result);
   return result;
 }
 

@@ -66,6 +66,7 @@ struct WallVoxels {
 /// \param positions, normals z is up; normals are unit, of any sign
 /// \param side of a voxel; enlarged if there would be more than 16 million of them
 WallVoxels buildWallVoxels(const std::vector<Eigen::Vector3d>& positions,
-                           const std::vector<Eigen::Vector3d>& normals, double side);
+                           const std::vector<Eigen::Vector3d>& normals, double side,
+                           int num_threads);
 
 }  // namespace storey::detail
