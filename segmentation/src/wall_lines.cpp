@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/even_draw.h>
 #include <storey/filters/detail/task_crew.h>
 #include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/found_line.h>
@@ -16,22 +17,23 @@
 namespace storey::detail {
 namespace {
 
-constexpr int kFreeAngles = 360;             // one a degree, all around: lines are oriented
-constexpr double kFreeBin = 1.5;             // of the offset, noise deviations
-constexpr int kFreeWindow = 3;               // bins
-constexpr double kLockedBin = 0.75;          // noise deviations
-constexpr int kLockedWindow = 5;             // bins
-constexpr double kMinVotes = 0.3;            // of the points that the least support would have
-constexpr double kThin = 0.5;                // of the density of all: where its cells are too small
-constexpr double kThinnest = 1.0 / 16.0;     // thinner heights show clutter alone
-constexpr double kThinMiddle = 0.7;          // of an octave of densities
-constexpr double kThinFacade = 0.25;         // of the density of all, at most
-constexpr int kMaxFailures = 40;             // peaks without support in a row
-constexpr int kAhead = 4;                    // peaks tried at once, most, for each thread
-constexpr int kMaxLines = 400;               // cells grow with their square
-constexpr double kBeside = 0.25;             // points of the stronger line, of the weaker's support
-constexpr double kExplained = 2.5;           // noise deviations across a line
-constexpr double kLeftover = 0.8;            // of the support; a wall 2 deviations beside has 0.69
+constexpr std::size_t kForDirections = 50000;  // points that tell which directions there are
+constexpr int kFreeAngles = 360;               // one a degree, all around: lines are oriented
+constexpr double kFreeBin = 1.5;               // of the offset, noise deviations
+constexpr int kFreeWindow = 3;                 // bins
+constexpr double kLockedBin = 0.75;            // noise deviations
+constexpr int kLockedWindow = 5;               // bins
+constexpr double kMinVotes = 0.3;              // of the points that the least support would have
+constexpr double kThin = 0.5;             // of the density of all: where its cells are too small
+constexpr double kThinnest = 1.0 / 16.0;  // thinner heights show clutter alone
+constexpr double kThinMiddle = 0.7;       // of an octave of densities
+constexpr double kThinFacade = 0.25;      // of the density of all, at most
+constexpr int kMaxFailures = 40;          // peaks without support in a row
+constexpr int kAhead = 4;                 // peaks tried at once, most, for each thread
+constexpr int kMaxLines = 400;            // cells grow with their square
+constexpr double kBeside = 0.25;          // points of the stronger line, of the weaker's support
+constexpr double kExplained = 2.5;        // noise deviations across a line
+constexpr double kLeftover = 0.8;         // of the support; a wall 2 deviations beside has 0.69
 
 // The strongest windows, each without those before it, which are struck out.
 std::vector<VoteTable::Peak> strikePeaks(VoteTable& table, double least_votes, std::size_t most) {
@@ -184,6 +186,23 @@ bool isLeftover(const std::vector<int>& support, const std::vector<WallLine>& st
   return static_cast<double>(explained) > kLeftover * static_cast<double>(support.size());
 }
 
+// The directions that lines have which are found without knowing any.
+std::vector<double> findDirections(const std::vector<WallPoint>& points, WallScale scale,
+                                   const WallLineOptions& options, TaskCrew& crew,
+                                   const std::vector<double>& all_around) {
+  const std::vector<WallPoint> some = drawEvenly(points, kForDirections);
+  scale.density *= static_cast<double>(some.size()) / static_cast<double>(points.size());
+  std::vector<char> free(some.size(), 1);
+  std::vector<FoundLine> lines;
+  extractGreedily(some, scale, options, crew, true, all_around, free, lines);
+  std::vector<double> oriented;
+  for (const double angle : directionsOf(lines)) {
+    oriented.push_back(angle);
+    oriented.push_back(angle + M_PI);
+  }
+  return oriented;
+}
+
 }  // namespace
 
 std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const WallScale& scale,
@@ -193,18 +212,11 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
     all_around[static_cast<std::size_t>(a)] = 2.0 * M_PI * a / kFreeAngles;
 
   TaskCrew crew(threadsFor(options.threads));
-  std::vector<char> free(points.size(), 1);
-  std::vector<FoundLine> free_lines;
-  extractGreedily(points, scale, options, crew, true, all_around, free, free_lines);
-
   std::vector<double> oriented;
   if (options.steps.locked_directions) {
-    for (const double angle : directionsOf(free_lines)) {
-      oriented.push_back(angle);
-      oriented.push_back(angle + M_PI);
-    }
+    oriented = findDirections(points, scale, options, crew, all_around);
   }
-  std::fill(free.begin(), free.end(), 1);
+  std::vector<char> free(points.size(), 1);
   std::vector<FoundLine> lines;
   if (!oriented.empty()) {
     extractGreedily(points, scale, options, crew, false, oriented, free, lines);
