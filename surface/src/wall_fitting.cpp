@@ -130,7 +130,8 @@ struct Residuals {
   }
 };
 
-void findPanes(const WallPoints& points, double noise, Walls& walls) {
+// \return whether there are any
+bool findPanes(const WallPoints& points, double noise, Walls& walls) {
   const std::vector<Residuals> residuals =
       points.sum<Residuals>(walls, [noise](const Wall&, double, double across, Residuals& sum) {
         sum.histogram.add(across / noise);
@@ -139,12 +140,14 @@ void findPanes(const WallPoints& points, double noise, Walls& walls) {
   std::vector<Wall*> seen;
   std::vector<detail::ResidualHistogram> histograms;
   for (std::size_t k = 0; k < walls.size(); ++k) {
+    walls[k].panes = {};
     if (residuals[k].points < kMinSupport) continue;
     seen.push_back(&walls[k]);
     histograms.push_back(residuals[k].histogram);
   }
   const std::vector<detail::WallPanes> all_panes = detail::fitPanes(histograms, points.threads);
   for (std::size_t k = 0; k < all_panes.size(); ++k) seen[k]->panes = all_panes[k];
+  return !all_panes.empty();
 }
 
 // Tukey's weights; where the wall has panes, one step of expectation and maximisation.
@@ -292,12 +295,14 @@ std::map<int, WallFit> detail::fitWalls(std::vector<FloorplanLayer>& layers,
   if (layers.empty()) return {};
   std::map<int, WallFit> fits;
   Walls walls;
+  bool panes = false;
   for (int round = 0; round < options.rounds; ++round) {
     const bool anew = by_wall.gather(layers, points, options.noise, options.threads);
     if (anew || round == 0) walls = wallsOf(by_wall.frames());
     const WallPoints of_walls{by_wall, options.threads};
-    if (options.find_panes && round > 0) {
-      findPanes(of_walls, options.noise, walls);  // about lines that are nearly right
+    // About lines that are nearly right; what was not there is not there for the same points.
+    if (options.find_panes && round > 0 && (anew || round == 1 || panes)) {
+      panes = findPanes(of_walls, options.noise, walls);
     }
     sumMoments(of_walls, options.noise, walls);
     fits = solve(walls, options.noise);
