@@ -46,8 +46,9 @@ class FlatFace {
     return {normal_.x() * p.y() - normal_.y() * p.x(), p.z()};
   }
 
-  bool agrees(const Eigen::Vector3d& normal) const {
-    return normal.isZero() ? is_wall_ : normal.dot(normal_) >= kSameSide * normal.norm();
+  // \param length of the normal
+  bool agrees(const Eigen::Vector3d& normal, double length) const {
+    return length > 0.0 ? normal.dot(normal_) >= kSameSide * length : is_wall_;
   }
 
   // By the even-odd rule over all rings.
@@ -114,10 +115,11 @@ class FaceIndex {
   int faceOf(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const {
     int best = -1;
     double best_distance = gate_;
+    const double length = normal.norm();
     const auto consider = [&](int f) {
       const FlatFace& face = faces_[static_cast<std::size_t>(f)];
       const double distance = std::abs(face.across(point));
-      if (distance > best_distance || !face.agrees(normal)) return;
+      if (distance > best_distance || !face.agrees(normal, length)) return;
       if (!face.inside(face.project(point))) return;
       best = f;
       best_distance = distance;

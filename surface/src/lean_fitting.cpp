@@ -23,7 +23,7 @@ constexpr double kMinPivot = 1e-9;       // of the largest: below, there is no s
 
 // Weighted moments of the points of a wall, across it against (1, along it, height).
 struct Moments {
-  Eigen::Matrix3d rows = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d rows = Eigen::Matrix3d::Zero();  // lower half
   Eigen::Vector3d products = Eigen::Vector3d::Zero();
   double squares = 0.0;
   std::size_t support = 0;
@@ -42,9 +42,15 @@ void addTo(Moments& sum, const WallPlace& place, double scale) {
   const double u = across / scale;
   if (std::abs(u) >= 1.0) return;
   const double weight = (1.0 - u * u) * (1.0 - u * u);
-  const Eigen::Vector3d row(1.0, place.along, place.height);
-  sum.rows += weight * row * row.transpose();
-  sum.products += weight * across * row;
+  const double along = place.along;
+  const double height = place.height;
+  sum.rows(0, 0) += weight;
+  sum.rows(1, 0) += weight * along;
+  sum.rows(2, 0) += weight * height;
+  sum.rows(1, 1) += weight * along * along;
+  sum.rows(2, 1) += weight * along * height;
+  sum.rows(2, 2) += weight * height * height;
+  sum.products += weight * across * Eigen::Vector3d(1.0, along, height);
   sum.squares += weight * across * across;
   ++sum.support;
 }
@@ -65,7 +71,8 @@ std::vector<Lean> leansOf(const PointsByWall& by_wall, double noise, unsigned in
   for (std::size_t k = 0; k < sums.size(); ++k) {
     const Moments& moments = sums[k];
     if (moments.support < kMinSupport) continue;
-    Eigen::FullPivLU<Eigen::Matrix3d> lu(moments.rows);
+    const Eigen::Matrix3d rows = moments.rows.selfadjointView<Eigen::Lower>();
+    Eigen::FullPivLU<Eigen::Matrix3d> lu(rows);
     lu.setThreshold(kMinPivot);
     if (!lu.isInvertible()) continue;
     const Eigen::Matrix3d inverse = lu.inverse();
