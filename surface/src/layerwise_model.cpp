@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/filters/detail/chunks.h>
+#include <storey/filters/detail/even_draw.h>
 #include <storey/surface/detail/points_by_wall.h>
 #include <storey/surface/detail/short_edges.h>
 #include <storey/surface/detail/stacked_walls.h>
@@ -67,25 +68,14 @@ Eigen::Isometry3d setUpright(const std::vector<FloorplanLayer>& layers,
   return upright;
 }
 
-// Every point but for the same number of those between, so many that they are about `count`.
-FitPoints sampleOf(const FitPoints& points, std::size_t count) {
-  FitPoints sample;
-  const std::size_t step = 1 + (points.positions.size() - 1) / count;
-  for (std::size_t i = 0; i < points.positions.size(); i += step) {
-    sample.positions.push_back(points.positions[i]);
-    sample.normals.push_back(points.normals[i]);
-  }
-  return sample;
-}
-
 // Walls and heights well enough that each point is given to the wall and the layer that it is of.
 void fitFirst(const FitPoints& points, FitOptions options, std::vector<FloorplanLayer>& layers) {
   options.rounds = kFirstRounds;
   options.find_panes = false;
-  const bool few = points.positions.size() <= kFirstPoints;
-  const FitPoints sample = few ? FitPoints() : sampleOf(points, kFirstPoints);
-  fitWalls(layers, few ? points : sample, options);
-  fitHeights(layers, few ? points : sample, options);
+  const FitPoints some{detail::drawEvenly(points.positions, kFirstPoints),
+                       detail::drawEvenly(points.normals, kFirstPoints)};
+  fitWalls(layers, some, options);
+  fitHeights(layers, some, options);
 }
 
 // Walls and heights of the blocks, the solid, its checks.
