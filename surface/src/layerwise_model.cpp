@@ -98,7 +98,9 @@ void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, Layer
   }
   by_wall = {};
   fit.noise = noiseOfWalls(result.walls, options.noise);
-  if (options.steps.unseen_walls) fitUnseenWalls(layers, points, fit.noise, result.walls);
+  if (options.steps.unseen_walls) {
+    fitUnseenWalls(layers, points, fit.noise, result.walls, options.threads);
+  }
   if (options.steps.facets) detail::dropShortEdges(layers, result.walls, kShortEdge * fit.noise);
   fit.max_shift = 0.5 * options.slice_thickness;
   result.levels = fitHeights(layers, points, fit);
