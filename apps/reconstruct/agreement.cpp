@@ -40,12 +40,13 @@ Agreement agreementWith(const Result& result) {
     of_building.push_back(classes[upright[k]] == kWall ? 1U : 0U);
   }
   const synth::TriangleTree tree(synth::measurable(io::toPolygons(result.model.model)).triangles);
-  const std::vector<double> distances = tree.distances(positions);
+  const std::vector<double> distances =
+      tree.distances(positions, kReach * result.cloud.state.noise);
   double near[2] = {0.0, 0.0};
   double all[2] = {0.0, 0.0};
   for (std::size_t k = 0; k < distances.size(); ++k) {
     all[of_building[k]] += 1.0;
-    if (distances[k] <= kReach * result.cloud.state.noise) near[of_building[k]] += 1.0;
+    if (std::isfinite(distances[k])) near[of_building[k]] += 1.0;
   }
   if (all[0] + all[1] > 0.0) agreement.explained = (near[0] + near[1]) / (all[0] + all[1]);
   if (all[1] > 0.0) agreement.explained_of_building = near[1] / all[1];

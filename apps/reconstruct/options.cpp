@@ -49,7 +49,8 @@ bool parseOptions(int argc, char** argv, Options& o) {
   stages::declareStructurePoints(line, o.structure_points);
   stages::declareKeptShare(line, o.kept_share);
   stages::declareMethod(line, o.method);
-  stages::declareBlocks(line, o.blocks, o.simplicity);
+  stages::declareBlocks(line, o.blocks);
+  stages::declareMaxFaces(line, o.simplicity);
   stages::declareMaxTypes(line, o.simplicity);
   stages::declareTradeOff(line, o.simplicity);
   stages::declareThickness(line, o.slices);

@@ -73,9 +73,9 @@ class Pipeline {
     stage("model", [&] {
       const bool blocks = options_.method == Method::Building;
       return buildModel(result_.all, blocks ? result_.blocks : result_.slices.layers,
-                        options_.method, options_.simplicity.max_types, options_.model,
-                        options_.threads, result_.model,
-                        partsOf(result_.loaded, result_.all, attitude), options_.steps);
+                        options_.method, options_.simplicity, options_.model, options_.threads,
+                        result_.model, partsOf(result_.loaded, result_.all, attitude),
+                        options_.steps);
     });
     result_.local_to_input = modelToInput(cloud, result_.model);
     return std::move(result_);

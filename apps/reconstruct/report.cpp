@@ -171,8 +171,10 @@ Json describeLayers(const Result& r) {
                       {"area", area(storey.plan)}});
   }
   Json trade_off = Json::array();  // the least energy without label costs for each number of types
-  for (const LayerTradeOff& point : d.trade_off) {
+  for (std::size_t i = 0; i < d.trade_off.size(); ++i) {
+    const LayerTradeOff& point = d.trade_off[i];
     trade_off.push_back({{"types", point.num_labels},
+                         {"faces", d.trade_off_faces[i]},
                          {"energy", point.labeling.energy},
                          {"lower_bound", point.labeling.lower_bound},
                          {"optimal", point.labeling.optimal},

@@ -3,6 +3,8 @@
 
 #include <storey/surface/triangulation.h>
 
+#include <vector>
+
 #include "synth/triangle_tree.h"
 
 namespace storey::reconstruct {
@@ -31,10 +33,14 @@ ResidualHistogram measureResiduals(const Result& result) {
   histogram.counts.assign(kNumBins, 0);
   const synth::TriangleTree surface(toTriangles(result.model.model));
   const std::size_t step = (cloud.size() + kMaxPoints - 1) / kMaxPoints;
+  std::vector<Eigen::Vector3d> positions;
   for (std::size_t i = 0; i < cloud.size(); i += step) {
-    const Eigen::Vector3d p = cloud[i].getVector3fMap().cast<double>();
-    const double bins = surface.distance(result.model.upright * p) / histogram.bin;
+    positions.push_back(result.model.upright * cloud[i].getVector3fMap().cast<double>());
+  }
+  const double reach = histogram.bin * static_cast<double>(kNumBins);
+  for (const double distance : surface.distances(positions, reach)) {
     ++histogram.points;
+    const double bins = distance / histogram.bin;
     if (bins < static_cast<double>(kNumBins)) {
       ++histogram.counts[static_cast<std::size_t>(bins)];
     } else {

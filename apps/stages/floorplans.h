@@ -21,7 +21,7 @@ struct BlockOptions {
 /// How simple a model shall be. 0: no limit.
 struct SimplicityOptions {
   int max_types = 0;       ///< of floorplans
-  int max_faces = 0;       ///< method building: of the model
+  int max_faces = 0;       ///< polygons of the model
   bool trade_off = false;  ///< method building: find the whole trade-off
 };
 

@@ -28,8 +28,8 @@ struct ModelOptions {
 /// \param steps for experiments: those of the method that are left out
 /// \return a line that says what was found \throws io::Failure (BadInput) if there is no solid
 std::string buildModel(StageCloud& cloud, const std::vector<FloorplanLayer>& layers, Method method,
-                       int max_types, const ModelOptions& options, unsigned int threads,
-                       LayerwiseModel& model, const PartSource& parts = {},
+                       const SimplicityOptions& simplicity, const ModelOptions& options,
+                       unsigned int threads, LayerwiseModel& model, const PartSource& parts = {},
                        const storey::detail::MethodSteps& steps = {});
 
 /// Takes a model to the coordinates of the file that the first stage read.

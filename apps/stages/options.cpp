@@ -55,7 +55,7 @@ void declareMethod(cli::CommandLine& line, Method& method) {
 void checkMethod(const cli::CommandLine& line, Method method) {
   const bool paper = method == Method::Paper;
   const std::vector<std::string> others =
-      paper ? std::vector<std::string>{"min-wall-area", "block-cost", "max-faces", "trade-off"}
+      paper ? std::vector<std::string>{"min-wall-area", "block-cost", "trade-off"}
             : std::vector<std::string>{"slice-thickness", "linking",  "smoothness",
                                        "label-cost",      "encoding", "expansion"};
   for (const std::string& other : others) {
@@ -77,20 +77,22 @@ void declareLinking(cli::CommandLine& line, SliceOptions& o) {
                        "paper's Algorithm 1)");
 }
 
-void declareBlocks(cli::CommandLine& line, BlockOptions& blocks, SimplicityOptions& o) {
+void declareBlocks(cli::CommandLine& line, BlockOptions& blocks) {
   line.number(
       "min-wall-area", blocks.min_wall_area, cli::kNonNegative,
       "method building: least area of a wall that has points, squared length [0 = derived]");
   line.number("block-cost", blocks.block_cost, cli::kNonNegative,
               "method building: wall area that one more block must explain, squared length [0 = "
               "derived]");
-  line.whole("max-faces", o.max_faces, 0,
-             "method building: greatest number of polygons [0 = no limit]");
 }
 
 void declareTradeOff(cli::CommandLine& line, SimplicityOptions& o) {
   line.flag("trade-off", o.trade_off,
             "method building: report what simpler models would leave unexplained");
+}
+
+void declareMaxFaces(cli::CommandLine& line, SimplicityOptions& o) {
+  line.whole("max-faces", o.max_faces, 0, "greatest number of polygons [0 = no limit]");
 }
 
 void declareMaxTypes(cli::CommandLine& line, SimplicityOptions& o) {

@@ -111,20 +111,21 @@ void TriangleTree::search(std::size_t node, const Eigen::Vector3d& point, double
   search(far, point, best);
 }
 
-double TriangleTree::distance(const Eigen::Vector3d& point) const {
-  double best = std::numeric_limits<double>::infinity();
+double TriangleTree::distance(const Eigen::Vector3d& point, double reach) const {
+  double best = reach;
   if (!nodes_.empty()) {
     search(0, point, best);
   }
-  return best;
+  return best < reach ? best : kAnywhere;
 }
 
-std::vector<double> TriangleTree::distances(const std::vector<Eigen::Vector3d>& points) const {
+std::vector<double> TriangleTree::distances(const std::vector<Eigen::Vector3d>& points,
+                                            double reach) const {
   std::vector<double> result(points.size());
   const auto count = static_cast<std::ptrdiff_t>(points.size());
 #pragma omp parallel for schedule(dynamic, 256)
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    result[static_cast<std::size_t>(i)] = distance(points[static_cast<std::size_t>(i)]);
+    result[static_cast<std::size_t>(i)] = distance(points[static_cast<std::size_t>(i)], reach);
   }
   return result;
 }

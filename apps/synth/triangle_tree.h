@@ -19,11 +19,15 @@ class TriangleTree {
  public:
   explicit TriangleTree(TriangleMesh mesh);
 
-  /// Distance to the nearest triangle; infinite if there are none.
-  double distance(const Eigen::Vector3d& point) const;
+  static constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+
+  /// Distance to the nearest triangle; infinite if none is nearer than `reach`. A short reach takes
+  /// less time.
+  double distance(const Eigen::Vector3d& point, double reach = kAnywhere) const;
 
   /// Distance of each point, in their order.
-  std::vector<double> distances(const std::vector<Eigen::Vector3d>& points) const;
+  std::vector<double> distances(const std::vector<Eigen::Vector3d>& points,
+                                double reach = kAnywhere) const;
 
   struct Hit {
     std::size_t triangle = 0;

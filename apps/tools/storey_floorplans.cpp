@@ -33,7 +33,8 @@ bool parse(int argc, char** argv, Request& r) {
   line.argument("in", r.input, "the cloud");
   line.argument("out", r.output, "the floorplans (.geojson), in the upright frame of the cloud");
   stages::declareMethod(line, r.method);
-  stages::declareBlocks(line, r.blocks, r.simplicity);
+  stages::declareBlocks(line, r.blocks);
+  stages::declareMaxFaces(line, r.simplicity);
   stages::declareMaxTypes(line, r.simplicity);
   stages::declareLinking(line, r.slices);
   line.threads(r.threads);
@@ -42,6 +43,11 @@ bool parse(int argc, char** argv, Request& r) {
   if (r.input.empty() || r.output.empty()) line.fail("a cloud and an output are needed");
   requireExtension(line, r.output, {".geojson"});
   stages::checkMethod(line, r.method);
+  for (const char* const later : {"max-faces", "max-types"}) {
+    if (r.method == stages::Method::Paper && line.given(later)) {
+      line.fail(std::string("--") + later + " of floorplans of slices goes to storey_layers");
+    }
+  }
   return true;
 }
 

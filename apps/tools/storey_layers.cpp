@@ -16,7 +16,7 @@ struct Request {
   std::string cloud;
   std::string floorplans;
   std::vector<std::string> outputs;
-  int max_types = 0;
+  stages::SimplicityOptions simplicity;
   stages::ModelOptions model;
   unsigned int threads = 0;
   bool quiet = false;
@@ -35,8 +35,8 @@ bool parse(int argc, char** argv, Request& r) {
       "model", r.outputs,
       "one or more files, in the coordinates of the first cloud (.ply, .obj, .json =\n"
       "                CityJSON, .glb, .stl, .vtk; the fitted floorplans: .geojson, .svg, .dxf)");
-  stages::SimplicityOptions simplicity;
-  stages::declareMaxTypes(line, simplicity);
+  stages::declareMaxTypes(line, r.simplicity);
+  stages::declareMaxFaces(line, r.simplicity);
   stages::declareModel(line, r.model);
   line.threads(r.threads);
   stages::declareQuiet(line, r.quiet);
@@ -50,7 +50,6 @@ bool parse(int argc, char** argv, Request& r) {
                 ".svg .dxf");
     }
   }
-  r.max_types = simplicity.max_types;
   return true;
 }
 
@@ -72,8 +71,12 @@ int run(int argc, char** argv) {
   stages::StageCloud cloud = stages::readStageCloud(r.cloud);
   const stages::StageFloorplans floorplans = stages::readFloorplans(r.floorplans);
   completeState(floorplans, cloud);
+  if (r.simplicity.max_faces > 0 && floorplans.method == stages::Method::Building) {
+    throw io::Failure(io::Usage, r.floorplans, "--max-faces is for floorplans of slices",
+                      "give it to storey_floorplans");
+  }
   LayerwiseModel model;
-  const std::string found = buildModel(cloud, floorplans.layers, floorplans.method, r.max_types,
+  const std::string found = buildModel(cloud, floorplans.layers, floorplans.method, r.simplicity,
                                        r.model, r.threads, model);
   const exports::Exported exported{model.model, modelToInput(cloud, model), cloud.state.crs};
   for (const std::string& output : r.outputs) {

@@ -99,7 +99,9 @@ void VoteTable::voteInRow(std::size_t angle, const Ballots& ballots, int amount)
     }
   });
   // Where votes are taken away, the strongest window stays so unless it loses some.
-  if (amount > 0 || votesIn(angle, peaks_[angle].bin) != peaks_[angle].votes) changed_[angle] = 1;
+  if (amount < 0 && votesIn(angle, peaks_[angle].bin) == peaks_[angle].votes) return;
+  peaks_[angle] = strongestOf(angle);
+  changed_[angle] = 0;
 }
 
 VoteTable::Peak VoteTable::strongest() {

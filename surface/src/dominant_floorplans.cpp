@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/surface/dominant_floorplans.h>
+#include <storey/surface/extrusion.h>
 
 #include <algorithm>
 #include <limits>
@@ -114,46 +115,31 @@ void nameRemainingWalls(Floorplan& plan, int& next_id) {
   }
 }
 
-}  // namespace
-
-DominantFloorplans selectDominantFloorplans(const std::vector<FloorplanLayer>& slices,
-                                            const DominantFloorplanOptions& options) {
-  DominantFloorplans result;
-  result.slice_types.assign(slices.size(), -1);
-  std::vector<std::size_t> valid;  // slice of each floorplan
+// The floorplans of the slices that have one, and their grammar.
+struct ValidSlices {
+  std::vector<std::size_t> slices;  // of each floorplan
   std::vector<Floorplan> plans;
-  for (std::size_t i = 0; i < slices.size(); ++i) {
-    if (slices[i].plan.empty()) continue;
-    valid.push_back(i);
-    plans.push_back(slices[i].plan);
-  }
-  if (plans.empty()) return result;
-
   FloorplanGrammar grammar;
-  grammar.setEncoding(options.encoding);
-  grammar.setLengthTolerance(options.length_tolerance);
-  if (!grammar.encode(plans)) return result;
-  result.dictionary_size = grammar.getDictionarySize();
-  const Candidates candidates =
-      standingForAll(grammar, findCandidates(grammar, plans.size()), plans.size());
-  result.num_candidates = static_cast<int>(candidates.representative.size());
-  const LayerEnergy energy = buildEnergy(grammar, candidates, plans.size(), options);
-  result.labeling = options.exact ? minimizeLayerEnergy(energy) : expandLayerLabels(energy);
-  if (options.exact) result.trade_off = tradeOffLabels(energy);
+  Candidates candidates;
+};
 
+// Blocks, types and the type of each slice from labels of the floorplans.
+void takeLabels(const std::vector<FloorplanLayer>& slices, const ValidSlices& valid,
+                const std::vector<int>& labels, DominantFloorplans& result) {
+  result.slice_types.assign(slices.size(), -1);
   std::map<int, int> type_of;  // label -> type, in order of height
   std::vector<Floorplan> type_plans;
-  int next_wall = static_cast<int>(grammar.getDictionarySize());
-  for (std::size_t i = 0; i < plans.size(); ++i) {
-    const int label = result.labeling.labels[i];
+  int next_wall = static_cast<int>(valid.grammar.getDictionarySize());
+  for (std::size_t i = 0; i < valid.plans.size(); ++i) {
+    const int label = labels[i];
     if (type_of.emplace(label, static_cast<int>(type_of.size())).second) {
       type_plans.push_back(
-          grammar.decode(candidates.representative[static_cast<std::size_t>(label)]));
+          valid.grammar.decode(valid.candidates.representative[static_cast<std::size_t>(label)]));
       nameRemainingWalls(type_plans.back(), next_wall);
     }
     const int type = type_of[label];
-    result.slice_types[valid[i]] = type;
-    const FloorplanLayer& slice = slices[valid[i]];
+    result.slice_types[valid.slices[i]] = type;
+    const FloorplanLayer& slice = slices[valid.slices[i]];
     if (!result.types.empty() && result.types.back() == type) {
       result.blocks.back().z_max = slice.z_max;
       continue;
@@ -167,6 +153,42 @@ DominantFloorplans selectDominantFloorplans(const std::vector<FloorplanLayer>& s
     result.blocks.push_back({z_min, slice.z_max, type_plans[static_cast<std::size_t>(type)]});
   }
   result.num_types = static_cast<int>(type_of.size());
+}
+
+std::size_t countFaces(const std::vector<FloorplanLayer>& slices, const ValidSlices& valid,
+                       const std::vector<int>& labels) {
+  DominantFloorplans chosen;
+  takeLabels(slices, valid, labels, chosen);
+  return extrudeFloorplans(chosen.blocks).faces.size();
+}
+
+}  // namespace
+
+DominantFloorplans selectDominantFloorplans(const std::vector<FloorplanLayer>& slices,
+                                            const DominantFloorplanOptions& options) {
+  DominantFloorplans result;
+  result.slice_types.assign(slices.size(), -1);
+  ValidSlices valid;
+  for (std::size_t i = 0; i < slices.size(); ++i) {
+    if (slices[i].plan.empty()) continue;
+    valid.slices.push_back(i);
+    valid.plans.push_back(slices[i].plan);
+  }
+  const std::size_t count = valid.plans.size();
+  if (count == 0) return result;
+  valid.grammar.setEncoding(options.encoding);
+  valid.grammar.setLengthTolerance(options.length_tolerance);
+  if (!valid.grammar.encode(valid.plans)) return result;
+  result.dictionary_size = valid.grammar.getDictionarySize();
+  valid.candidates = standingForAll(valid.grammar, findCandidates(valid.grammar, count), count);
+  result.num_candidates = static_cast<int>(valid.candidates.representative.size());
+  const LayerEnergy energy = buildEnergy(valid.grammar, valid.candidates, count, options);
+  result.labeling = options.exact ? minimizeLayerEnergy(energy) : expandLayerLabels(energy);
+  if (options.exact) result.trade_off = tradeOffLabels(energy);
+  for (const LayerTradeOff& point : result.trade_off) {
+    result.trade_off_faces.push_back(countFaces(slices, valid, point.labeling.labels));
+  }
+  takeLabels(slices, valid, result.labeling.labels, result);
   return result;
 }
 

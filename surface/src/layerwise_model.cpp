@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/even_draw.h>
 #include <storey/surface/detail/fitted_model.h>
 #include <storey/surface/detail/points_by_wall.h>
 #include <storey/surface/detail/short_edges.h>
@@ -32,25 +33,14 @@ Eigen::Isometry3d setUpright(const std::vector<FloorplanLayer>& layers,
   return upright;
 }
 
-// Every point but for the same number of those between, so many that they are about `count`.
-FitPoints sampleOf(const FitPoints& points, std::size_t count) {
-  FitPoints sample;
-  const std::size_t step = 1 + (points.positions.size() - 1) / count;
-  for (std::size_t i = 0; i < points.positions.size(); i += step) {
-    sample.positions.push_back(points.positions[i]);
-    sample.normals.push_back(points.normals[i]);
-  }
-  return sample;
-}
-
 // Walls and heights well enough that each point is given to the wall and the layer that it is of.
 void fitFirst(const FitPoints& points, FitOptions options, std::vector<FloorplanLayer>& layers) {
   options.rounds = kFirstRounds;
   options.find_panes = false;
-  const bool few = points.positions.size() <= kFirstPoints;
-  const FitPoints sample = few ? FitPoints() : sampleOf(points, kFirstPoints);
-  fitWalls(layers, few ? points : sample, options);
-  fitHeights(layers, few ? points : sample, options);
+  const FitPoints some{detail::drawEvenly(points.positions, kFirstPoints),
+                       detail::drawEvenly(points.normals, kFirstPoints)};
+  fitWalls(layers, some, options);
+  fitHeights(layers, some, options);
 }
 
 // Walls and heights of the blocks, the solid, its checks.
@@ -73,7 +63,9 @@ void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, Layer
   }
   by_wall = {};
   fit.noise = detail::noiseOfWalls(result.walls, options.noise);
-  if (options.steps.unseen_walls) fitUnseenWalls(layers, points, fit.noise, result.walls);
+  if (options.steps.unseen_walls) {
+    fitUnseenWalls(layers, points, fit.noise, result.walls, options.threads);
+  }
   if (options.steps.facets) detail::dropShortEdges(layers, result.walls, kShortEdge * fit.noise);
   fit.max_shift = 0.5 * options.slice_thickness;
   result.levels = fitHeights(layers, points, fit);
@@ -94,11 +86,22 @@ std::multiset<int> wallsOf(const Floorplan& plan) {
 
 }  // namespace
 
-LayerwiseModel buildLayerwiseModel(const std::vector<FloorplanLayer>& slices, FitPoints points,
-                                   const LayerwiseModelOptions& options) {
+LayerwiseModel buildLayerwiseModel(const std::vector<FloorplanLayer>& slices,
+                                   const FitPoints& points, const LayerwiseModelOptions& options) {
   LayerwiseModel result;
   result.dominant = selectDominantFloorplans(slices, options.dominant);
-  fitAndExtrude(std::move(points), options, result);
+  fitAndExtrude(points, options, result);
+  while (options.max_faces > 0 && result.model.faces.size() > options.max_faces &&
+         result.dominant.num_types > 1) {
+    DominantFloorplanOptions fewer = options.dominant;
+    fewer.max_types = static_cast<std::size_t>(result.dominant.num_types) - 1;
+    const DominantFloorplans whole = std::move(result.dominant);
+    result = {};
+    result.dominant = selectDominantFloorplans(slices, fewer);
+    result.dominant.trade_off = whole.trade_off;  // not as far as the limit alone
+    result.dominant.trade_off_faces = whole.trade_off_faces;
+    fitAndExtrude(points, options, result);
+  }
   return result;
 }
 

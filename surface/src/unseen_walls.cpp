@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/threads.h>
 #include <storey/surface/detail/edge_index.h>
 #include <storey/surface/detail/level_fitting.h>
 #include <storey/surface/detail/unseen_walls.h>
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace storey {
 namespace {
@@ -108,8 +110,9 @@ std::vector<HeightFit> fitEnds(const std::vector<Corner>& corners, const FitPoin
   return tails > 0.0 ? fitAll(tails) : ends;
 }
 
-// The line through what all corners tell: its direction stays unless they contradict.
-bool fitToCorners(const std::vector<Corner>& corners, const FitPoints& points, double noise,
+// The line through what all corners tell: its direction stays unless they contradict, and all of it
+// where they tell nothing.
+void fitToCorners(const std::vector<Corner>& corners, const FitPoints& points, double noise,
                   WallFit& wall) {
   const std::vector<HeightFit> ends = fitEnds(corners, points, noise, wall);
   double w = 0.0, s = 0.0, d = 0.0, ss = 0.0, sd = 0.0;
@@ -124,7 +127,7 @@ bool fitToCorners(const std::vector<Corner>& corners, const FitPoints& points, d
     w += weight, s += weight * along, d += weight * across;
     ss += weight * along * along, sd += weight * along * across;
   }
-  if (w == 0.0) return false;
+  if (w == 0.0) return;
   wall.centre = (s / w) * tangent + (d / w) * wall.normal;
   const double spread = ss - s * s / w;
   const double slope = spread > 0.0 ? (sd - s * d / w) / spread : 0.0;
@@ -134,7 +137,6 @@ bool fitToCorners(const std::vector<Corner>& corners, const FitPoints& points, d
   }
   wall.offset = wall.normal.dot(wall.centre);
   wall.offset_deviation = 1.0 / std::sqrt(w);
-  return true;
 }
 
 }  // namespace
@@ -162,13 +164,17 @@ std::map<int, WallFit> detail::unseenWalls(const std::vector<FloorplanLayer>& la
 }
 
 void fitUnseenWalls(std::vector<FloorplanLayer>& layers, const FitPoints& points, double noise,
-                    std::map<int, WallFit>& fits) {
+                    std::map<int, WallFit>& fits, unsigned int threads) {
   const std::map<int, WallFit> unseen = detail::unseenWalls(layers, fits);
-  for (const auto& [id, fit] : unseen) {
-    WallFit wall = fit;
-    if (fitToCorners(cornersOf(id, layers, fits, unseen), points, noise, wall)) fits[id] = wall;
+  if (unseen.empty()) return;
+  std::vector<std::pair<int, WallFit>> walls(unseen.begin(), unseen.end());
+#pragma omp parallel for num_threads(detail::threadsFor(threads)) schedule(dynamic, 1)
+  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(walls.size()); ++i) {
+    auto& [id, wall] = walls[static_cast<std::size_t>(i)];
+    fitToCorners(cornersOf(id, layers, fits, unseen), points, noise, wall);
   }
-  if (!unseen.empty()) detail::moveCorners(layers, fits);
+  for (const auto& [id, wall] : walls) fits[id] = wall;
+  detail::moveCorners(layers, fits);
 }
 
 }  // namespace storey

@@ -240,6 +240,8 @@ TEST(TriangleDistance, TreeAgreesWithBruteForce) {
                                   p, mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)));
     }
     EXPECT_EQ(tree.distance(p), least);
+    EXPECT_EQ(tree.distance(p, 1.01 * least), least);
+    EXPECT_TRUE(std::isinf(tree.distance(p, 0.99 * least)));
   }
   EXPECT_TRUE(std::isinf(storey::synth::TriangleTree(TriangleMesh()).distance(kLow)));
 }

@@ -90,8 +90,7 @@ TEST_F(ReconstructProgram, OptionsThatTheMethodIgnoresGiveOneLineAndStatus2) {
   for (const char* const arguments :
        {"--slice-thickness 1", "--linking greedy", "--smoothness 1", "--label-cost 1",
         "--encoding turns", "--expansion", "--method paper --min-wall-area 1",
-        "--method paper --block-cost 1", "--method paper --max-faces 9",
-        "--method paper --trade-off"}) {
+        "--method paper --block-cost 1", "--method paper --trade-off"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments;
     EXPECT_NE(outcome.message.find("goes with --method"), std::string::npos) << outcome.message;
@@ -194,6 +193,28 @@ TEST_F(ReconstructProgram, AModelKeepsTheLimitOfItsFaces) {
   EXPECT_EQ(simpler.report["parameters"]["max_faces"], all - 1);
   const Json& front = simpler.report["building"]["trade_off"];
   EXPECT_LE(front.back()["faces"], all - 1);
+}
+
+TEST_F(ReconstructProgram, AModelOfSlicesKeepsTheLimitOfItsFaces) {
+  const Outcome plain = runWell("--method paper");
+  const int all = polygonsOf(plain);
+  const int types = plain.report["layers"]["types"].get<int>();
+  ASSERT_GT(types, 1);
+  EXPECT_EQ(runWell("--method paper --max-faces " + std::to_string(all)).report["model"],
+            plain.report["model"]);
+  const Outcome simpler = runWell("--method paper --max-faces " + std::to_string(all - 1));
+  EXPECT_LT(polygonsOf(simpler), all);
+  EXPECT_LT(simpler.report["layers"]["types"], types);
+  // The front tells it beforehand: fewer types, fewer polygons.
+  const Json& front = plain.report["layers"]["trade_off"];
+  EXPECT_EQ(simpler.report["layers"]["trade_off"], front);
+  for (const Json& point : front) {
+    if (point["types"] < types) {
+      EXPECT_LT(point["faces"], all);
+    } else if (point["types"] == types) {
+      EXPECT_EQ(point["faces"], all);
+    }
+  }
 }
 
 TEST_F(ReconstructProgram, AModelKeepsTheLimitOfItsTypes) {

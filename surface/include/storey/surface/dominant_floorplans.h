@@ -35,6 +35,8 @@ struct DominantFloorplans {
   std::size_t dictionary_size = 0;
   LayerLabeling labeling;  ///< energy, bound, whether it is optimal; labels are candidates
   std::vector<LayerTradeOff> trade_off;  ///< fit against number of types, if minimised exactly
+  /// Polygons of the solid over the floorplans of each point of the trade-off, not yet fitted.
+  std::vector<std::size_t> trade_off_faces;
 };
 
 /// Chooses the dominant floorplans among those of the slices and gives each slice one of them, by

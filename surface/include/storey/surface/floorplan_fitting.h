@@ -68,7 +68,7 @@ std::map<int, WallFit> fitWalls(std::vector<FloorplanLayer>& layers, const FitPo
 /// has for levels; their directions stay unless both ends contradict them. \param fits of
 /// `fitWalls` for the same layers; changed in place, as the layers are
 void fitUnseenWalls(std::vector<FloorplanLayer>& layers, const FitPoints& points, double noise,
-                    std::map<int, WallFit>& fits);
+                    std::map<int, WallFit>& fits, unsigned int threads = 0);
 
 /// Moves the boundaries between layers, the foot and the top to where the points say they are
 /// (doc/method.md, deviation 6): the maximum likelihood of a step in the density of the points of

@@ -17,6 +17,7 @@ struct LayerwiseModelOptions {
   double noise = 0.0;            ///< standard deviation of the points about their walls, > 0
   double slice_thickness = 0.0;  ///< > 0; heights are sought within 1.5 slices of a boundary
   double grid = 0.0;             ///< see extrudeFloorplans
+  std::size_t max_faces = 0;     ///< of a model of slices: by fewer types; 0: no limit
   detail::MethodSteps steps;     ///< of the fits, for experiments
   unsigned int threads = 0;      ///< 0: all cores; the result is the same for any number
 };
@@ -33,9 +34,10 @@ struct LayerwiseModel {
 };
 
 /// The second room of the house: floorplans of slices to a checked solid. Dominant floorplans are
-/// chosen (11)-(15), their walls and heights fitted to all points, and extruded.
+/// chosen (11)-(15), their walls and heights fitted to all points, and extruded. Where the model
+/// has more than `max_faces` polygons, the same with one type less, down to a single one.
 /// \return an empty model if no slice has a floorplan
-LayerwiseModel buildLayerwiseModel(const std::vector<FloorplanLayer>& slices, FitPoints points,
+LayerwiseModel buildLayerwiseModel(const std::vector<FloorplanLayer>& slices, const FitPoints& points,
                                    const LayerwiseModelOptions& options);
 
 /// The same from blocks whose floorplans are chosen already (edges carry wall ids, as from

@@ -87,6 +87,11 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
   void setMaxTypes(std::size_t max_types) { options_.max_types = max_types; }
   std::size_t getMaxTypes() const { return options_.max_types; }
 
+  /// Greatest number of polygons of a model of slices, kept by fewer types as far as one type
+  /// allows; 0 (default): no limit. For blocks see `BuildingFloorplanExtraction::setMaxFaces`.
+  void setMaxFaces(std::size_t max_faces) { max_faces_ = max_faces; }
+  std::size_t getMaxFaces() const { return max_faces_; }
+
   /// How floorplans are compared; default `FloorplanGrammar::Encoding::Walls`.
   void setEncoding(FloorplanGrammar::Encoding encoding) { options_.encoding = encoding; }
   FloorplanGrammar::Encoding getEncoding() const { return options_.encoding; }
@@ -131,6 +136,7 @@ class LayerwiseMRFReconstruction : public pcl::SurfaceReconstruction<PointT> {
   double noise_ = 0.0;
   double density_ = 0.0;
   double grid_ = 0.0;
+  std::size_t max_faces_ = 0;
   unsigned int threads_ = 0;
   detail::MethodSteps steps_;
   PartSource source_;

@@ -135,12 +135,13 @@ bool LayerwiseMRFReconstruction<PointT>::build() {
   options.dominant = options_;
   options.dominant.length_tolerance = detail::kLetterToleranceInNoise * options.noise;
   options.grid = grid_;
+  options.max_faces = max_faces_;
   options.steps = steps_;
   options.threads = threads_;
   FitPoints points = detail::toFitPoints(*this->input_, *this->indices_, threads_);
   if (!floorplans_.empty()) {
     options.slice_thickness = floorplans_.front().z_max - floorplans_.front().z_min;
-    result_ = buildLayerwiseModel(floorplans_, std::move(points), options);
+    result_ = buildLayerwiseModel(floorplans_, points, options);
   } else {
     std::vector<FloorplanLayer> blocks = blocks_;
     if (blocks.empty()) {
