@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruct/intermediate.h"
 
+#include <pcl/common/io.h>
 #include <storey/surface/triangulation.h>
 
 #include <algorithm>
 #include <array>
 
+#include "io/cloud_writer.h"
+#include "io/model_io.h"
 #include "stages/cell_file.h"
 #include "stages/floorplan_file.h"
 #include "stages/wall_file.h"
+#include "synth/polygon_mesh.h"
+#include "synth/triangle_tree.h"
 
 namespace storey::reconstruct {
 namespace {
@@ -123,6 +128,29 @@ void writeSupport(const std::string& path, const PolyhedralModel& model) {
   file.commit();
 }
 
+// The points by how far the model is from them: green within three noise deviations, yellow within
+// six, red beyond.
+void writeExplainedPoints(const std::string& path, const Result& result) {
+  constexpr double kNear = 3.0;  // noise deviations
+  constexpr double kFar = 6.0;
+  pcl::PointCloud<pcl::PointXYZRGBNormal> coloured;
+  pcl::copyPointCloud(*result.cloud.points, coloured);
+  std::vector<Eigen::Vector3d> positions;
+  for (const Point& p : *result.cloud.points) {
+    positions.push_back(result.model.upright * p.getVector3fMap().cast<double>());
+  }
+  const double noise = result.cloud.state.noise;
+  const synth::TriangleTree surface(
+      synth::measurable(io::toPolygons(result.model.model)).triangles);
+  const std::vector<double> distances = surface.distances(positions, kFar * noise);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    coloured[i].r = distances[i] < kNear * noise ? 40 : 230;
+    coloured[i].g = distances[i] < kFar * noise ? 200 : 40;
+    coloured[i].b = 40;
+  }
+  io::writeCloud(path, coloured);
+}
+
 void writeFloorplanFiles(const io::OutputDirectory& directory, const Options& options,
                          const Result& result) {
   stages::StageFloorplans floorplans;
@@ -143,6 +171,7 @@ void writeIntermediate(const io::OutputDirectory& directory, const Options& opti
   writeFloorplanFiles(directory, options, result);
   writeModelTriangles(directory.file("11_model.vtk"), result.model.model);
   writeSupport(directory.file("11_support.vtk"), result.model.model);
+  writeExplainedPoints(directory.file("11_points.pcd"), result);
 }
 
 }  // namespace storey::reconstruct

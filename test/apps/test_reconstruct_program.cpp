@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // storey_reconstruct as a user runs it who asks for simpler models.
 #include <gtest/gtest.h>
+#include <pcl/io/pcd_io.h>
+#include <pcl/point_types.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -24,6 +27,7 @@ struct Outcome {
   std::string message;
   Json report;  // null if there is none
   std::set<std::string> files;
+  pcl::PointCloud<pcl::PointXYZRGBNormal> explained;  // of --intermediate
 };
 
 // Two towers on a podium, in a file that all tests read.
@@ -47,7 +51,7 @@ class ReconstructProgram : public ::testing::Test {
                                 scratch.file("stderr");
     const int result = std::system(command.c_str());
     Outcome outcome{
-        WIFEXITED(result) ? WEXITSTATUS(result) : -1, readAll(scratch.file("stderr")), nullptr, {}};
+        WIFEXITED(result) ? WEXITSTATUS(result) : -1, readAll(scratch.file("stderr")), {}, {}, {}};
     if (std::filesystem::exists(scratch.file("out"))) {
       for (const auto& entry : std::filesystem::directory_iterator(scratch.file("out"))) {
         if (entry.file_size() > 0) outcome.files.insert(entry.path().filename().string());
@@ -56,6 +60,8 @@ class ReconstructProgram : public ::testing::Test {
     if (std::filesystem::exists(scratch.file("out/report.json"))) {
       outcome.report = Json::parse(readAll(scratch.file("out/report.json")));
     }
+    const std::string explained = scratch.file("out/11_points.pcd");
+    if (std::filesystem::exists(explained)) pcl::io::loadPCDFile(explained, outcome.explained);
     return outcome;
   }
 
@@ -182,6 +188,20 @@ TEST_F(ReconstructProgram, TheTradeOffLeadsFromTheModelToSimplerOnes) {
   ASSERT_EQ(plain.report["building"]["trade_off"].size(), 1U);
   EXPECT_EQ(plain.report["building"]["trade_off"][0], front[0]);
   EXPECT_EQ(plain.report["model"], outcome.report["model"]);
+}
+
+// The colours are those of the share that the report says is within three deviations.
+TEST_F(ReconstructProgram, PointsAreColouredByTheirDistanceFromTheModel) {
+  const Outcome outcome = runWell("--intermediate");
+  const pcl::PointCloud<pcl::PointXYZRGBNormal>& points = outcome.explained;
+  ASSERT_EQ(points.size(), outcome.report["input"]["structure_points"].get<std::size_t>());
+  const auto green =
+      std::count_if(points.begin(), points.end(), [](const auto& p) { return p.r < 100; });
+  const Json& residuals = outcome.report["residuals"];
+  double within = 0.0;
+  for (std::size_t k = 0; k < 12; ++k) within += residuals["counts"][k].get<double>();
+  EXPECT_NEAR(static_cast<double>(green) / static_cast<double>(points.size()),
+              within / residuals["points"].get<double>(), 0.005);
 }
 
 TEST_F(ReconstructProgram, AModelKeepsTheLimitOfItsFaces) {
