@@ -44,7 +44,7 @@ io::LoadedCloud toLoaded(const synth::SyntheticCloud& cloud, bool with_normals) 
     const Eigen::Vector3f normal = cloud.normals[i].cast<float>();
     raw.normals.insert(raw.normals.end(), normal.data(), normal.data() + 3);
   }
-  return io::conditionPoints(raw);
+  return io::conditionPoints(std::move(raw));
 }
 
 double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #include "io/point_index.h"
 
@@ -19,16 +20,33 @@ constexpr double kMinUsableExtent = 1e-290;     // and so do reciprocals of such
 
 using Axes = std::array<std::vector<double>, 3>;
 
+/// As good as random, by the bits of the coordinates.
+std::uint64_t drawOf(const double* position) {
+  constexpr std::uint64_t kFactors[] = {0x9e3779b97f4a7c15u, 0xbf58476d1ce4e5b9u,
+                                        0x94d049bb133111ebu};  // odd: no bit is lost
+  std::uint64_t sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, position + axis, sizeof bits);
+    sum += bits * kFactors[axis];
+  }
+  return mixBits(sum);
+}
+
 /// Every `stride`-th point on average, chosen by its coordinates so that the order of the points
 /// does not matter.
 Axes sampleAxes(const std::vector<double>& positions, std::uint64_t stride) {
+  const std::uint64_t last_draw = ~std::uint64_t{0} / stride;
   Axes axes;
+  for (std::vector<double>& axis : axes)
+    axis.reserve(std::min(positions.size() / 3, 2 * kSampleSize));
   for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
     const double* const point = &positions[i];
+    if (drawOf(point) > last_draw) continue;
     const bool usable = std::all_of(point, point + 3, [](double coordinate) {
       return std::abs(coordinate) < kMaxUsableCoordinate;
     });
-    if (!usable || (stride > 1 && hashPosition(point) % stride != 0)) continue;
+    if (!usable) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) axes[axis].push_back(point[axis]);
   }
   return axes;

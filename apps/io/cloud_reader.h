@@ -60,9 +60,9 @@ LoadedCloud readCloud(const std::string& path, const CloudReaderOptions& options
 
 /// The second half of it: what the stages may rely on, of the points of a file.
 /// \throws Failure (BadInput) where they are too few
-LoadedCloud conditionCloud(const RawCloud& raw, const InputFile& file, unsigned int threads = 1);
+LoadedCloud conditionCloud(RawCloud raw, const InputFile& file, unsigned int threads = 1);
 
 /// The same for any number of points.
-LoadedCloud conditionPoints(const RawCloud& raw, unsigned int threads = 1);
+LoadedCloud conditionPoints(RawCloud raw, unsigned int threads = 1);
 
 }  // namespace storey::io

@@ -9,6 +9,7 @@
 namespace storey::io {
 namespace {
 
+constexpr std::size_t kBlockBytes = std::size_t{1} << 16;  // of records: they stay in the cache
 constexpr std::size_t kMissing = static_cast<std::size_t>(-1);
 
 std::size_t findField(const std::vector<PointField>& fields,
@@ -71,7 +72,7 @@ void RawCloud::begin(std::uint64_t num_points, const PointColumns& columns,
   limitPoints(limits.max_points);
   take_part_ = limits.take_part;
   has_normal_fields = columns.has_normals;
-  const std::uint64_t at_once = std::min(num_points, limits.max_points + 1);
+  const std::uint64_t at_once = std::min(num_points, limits.max_points + kBlockBytes);
   positions.reserve(3 * at_once);
   if (has_normal_fields) normals.reserve(3 * at_once);
   for (const std::string& name : columns.extra_names) {
@@ -87,7 +88,28 @@ void RawCloud::add(const std::vector<double>& values) {
     for (; next < 6; ++next) normals.push_back(static_cast<float>(values[next]));
   }
   for (ExtraColumn& extra : extras) extra.values.push_back(values[next++]);
-  settle();
+  settle(size() - 1);
+}
+
+void RawCloud::addRecords(const unsigned char* records, std::size_t record_bytes, std::size_t count,
+                          const std::vector<PointField>& fields, bool big_endian) {
+  const std::size_t first = size();
+  const auto decode = [&](std::size_t field, auto* column, std::size_t each) {
+    decodeColumn({records + fields[field].offset, record_bytes, count}, fields[field].type,
+                 big_endian, column, each);
+  };
+  positions.resize(3 * (first + count));
+  for (std::size_t axis = 0; axis < 3; ++axis) decode(axis, &positions[3 * first + axis], 3);
+  std::size_t next = 3;
+  if (has_normal_fields) {
+    normals.resize(3 * (first + count));
+    for (; next < 6; ++next) decode(next, &normals[3 * first + next - 3], 3);
+  }
+  for (ExtraColumn& extra : extras) {
+    extra.values.resize(first + count);
+    decode(next++, &extra.values[first], 1);
+  }
+  settle(first);
 }
 
 void checkPointCount(const InputFile& file, std::uint64_t num_points) {
@@ -121,13 +143,10 @@ void readBinaryRecords(InputFile& file, const std::vector<PointField>& fields,
   const std::size_t record_bytes = recordBytes(fields);
   std::vector<PointField> wanted;
   for (const std::size_t field : columns.field) wanted.push_back(fields[field]);
-  std::vector<double> values(wanted.size());
-  for (std::uint64_t i = 0; i < raw.declared; ++i) {
-    const unsigned char* const record = file.take(record_bytes);
-    for (std::size_t c = 0; c < wanted.size(); ++c) {
-      values[c] = decodeScalar(record + wanted[c].offset, wanted[c].type, big_endian);
-    }
-    raw.add(values);
+  const std::uint64_t at_once = std::max<std::uint64_t>(kBlockBytes / record_bytes, 1);
+  for (std::uint64_t i = 0; i < raw.declared; i += at_once) {
+    const std::uint64_t count = std::min(at_once, raw.declared - i);
+    raw.addRecords(file.take(count * record_bytes), record_bytes, count, wanted, big_endian);
   }
 }
 

@@ -73,10 +73,14 @@ struct RawCloud {
   void begin(std::uint64_t num_points, const PointColumns& columns, const ReadLimits& limits);
   /// \param values parallel to the columns
   void add(const std::vector<double>& values);
+  /// Some records of fixed size. \param fields parallel to the columns
+  void addRecords(const unsigned char* records, std::size_t record_bytes, std::size_t count,
+                  const std::vector<PointField>& fields, bool big_endian);
   std::uint64_t size() const { return positions.size() / 3; }
 
-  /// To be called after each point, where they are thinned or handed on while they are read.
-  void settle();
+  /// To be called after some points, where they are thinned or handed on while they are read.
+  /// \param first of the new ones
+  void settle(std::size_t first);
   /// Leaves a sample of at most so many points, without their viewers.
   void thin(std::uint64_t max_points);
   /// What `settle` thins to.
@@ -85,6 +89,7 @@ struct RawCloud {
  private:
   static constexpr std::uint64_t kAllKeys = ~std::uint64_t{0};
 
+  void keepSample(std::size_t first);
   void cut(std::size_t num_points);
 
   std::uint64_t max_points_ = kMaxPoints;
@@ -93,9 +98,9 @@ struct RawCloud {
 };
 
 /// Bytes of memory that reading takes for each point at its peak: raw position (24) and normal
-/// (12), the distinct position (16), where it stands (4), the finished point (48), and what the
-/// search for distinct positions took and leaves as holes that the finished points do not fit into
-/// (40, measured).
+/// (12), the finished point (48) and its part of the curve (2); and what the points of one part
+/// take to be sorted (32 and the room that their lists grew out of), which are all points where an
+/// outlier is so far away that the others share a part.
 constexpr std::uint64_t kLoaderBytesPerPoint = 144;
 
 /// What reading may take.
@@ -104,8 +109,8 @@ struct ReadLimits {
   std::uint64_t max_points = kMaxPoints;                 ///< kept: more are thinned to so many
   std::uint64_t bytes_per_point = kLoaderBytesPerPoint;  ///< of those that are kept
 
-  /// Instead of thinning: takes each `max_points` points on, in the order of the file, and only the
-  /// last of them are left to be returned. For PLY and PCD.
+  /// Instead of thinning: takes on each part of `max_points` points or a block of the reader more,
+  /// in the order of the file, and only the last ones are left to be returned. For PLY and PCD.
   std::function<void(const RawCloud&)> take_part = {};
 
   /// For formats that are thinned only when they are read.

@@ -77,4 +77,29 @@ inline double decodeScalar(const unsigned char* bytes, Scalar type, bool big_end
   }
 }
 
+/// Where the numbers of a field are: so many, so far from each other.
+struct StridedBytes {
+  const unsigned char* first;
+  std::size_t stride;
+  std::size_t count;
+};
+
+/// Decodes a field of many records. \param each how far the results are from each other
+template <typename Out>
+void decodeColumn(const StridedBytes& bytes, Scalar type, bool big_endian, Out* out,
+                  std::size_t each) {
+  const auto decodeAll = [&](auto decodeOne) {
+    for (std::size_t i = 0; i < bytes.count; ++i) {
+      out[i * each] = static_cast<Out>(decodeOne(bytes.first + i * bytes.stride));
+    }
+  };
+  if (!big_endian && type == Scalar::Float32) {  // nearly all clouds
+    decodeAll([](const unsigned char* at) { return detail::decode<float>(at, false); });
+  } else if (!big_endian && type == Scalar::Float64) {
+    decodeAll([](const unsigned char* at) { return detail::decode<double>(at, false); });
+  } else {
+    decodeAll([&](const unsigned char* at) { return decodeScalar(at, type, big_endian); });
+  }
+}
+
 }  // namespace storey::io

@@ -92,9 +92,7 @@ std::string orientOutwards(StageCloud& cloud, const AttitudeOptions& options, un
     OutwardNormalOrientation<Point> orientation;
     orientation.setInputCloud(cloud.points);
     orientation.setNumberOfThreads(threads);
-    const auto oriented = pcl::make_shared<Cloud>();
-    orientation.orient(*oriented);
-    cloud.points = oriented;
+    orientation.orient(*cloud.points);
     inside = options.side == SpaceSide::Inside;
     found.side_reason = "normals estimated";
   } else {
@@ -118,6 +116,8 @@ std::string measureScale(StageCloud& cloud, double given_noise, unsigned int thr
   std::vector<Eigen::Vector3f> positions;
   std::vector<Eigen::Vector3f> normals;
   const Cloud::ConstPtr sample = samplePoints(cloud);
+  positions.reserve(sample->size());  // a list that grows takes its memory twice
+  normals.reserve(sample->size());
   for (const Point& p : *sample) {
     if (std::abs(p.normal_z) < std::sin(kMaxWallTilt)) {
       positions.push_back(p.getVector3fMap());

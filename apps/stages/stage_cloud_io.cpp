@@ -150,7 +150,7 @@ StageCloud readStageCloud(const std::string& path) {
   const std::optional<StageState> state = fromNotes(raw.notes, file);
   if (!state) {
     io::turnToViewers(path, options.limits.max_memory, raw);
-    io::LoadedCloud loaded = io::conditionCloud(raw, file);
+    io::LoadedCloud loaded = io::conditionCloud(std::move(raw), file);
     return fromLoaded(loaded, path);
   }
   StageCloud cloud;

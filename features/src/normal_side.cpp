@@ -38,6 +38,7 @@ bool isWall(const Eigen::Vector3d& normal, const Eigen::Vector3d& up) {
 std::vector<std::size_t> wallPoints(const detail::OrientedPoints& points,
                                     const Eigen::Vector3d& up) {
   std::vector<std::size_t> of_walls;
+  of_walls.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (isWall(points.normals[i], up)) of_walls.push_back(i);
   }

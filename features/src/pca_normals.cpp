@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace storey::detail {
 namespace {
@@ -39,26 +40,36 @@ PcaNormal fitNormal(const MomentBatch& batch, std::size_t lane) {
   return result;
 }
 
-}  // namespace
-
-std::vector<PcaNormal> estimatePcaNormals(const std::vector<Eigen::Vector3f>& positions, int& k,
-                                          unsigned int num_threads) {
-  k = k > 0 ? k : derivedNeighbors(positions);
-  const DistinctPositions distinct = findDistinctPositions(positions, num_threads);
-  std::vector<PcaNormal> result(positions.size());
-  if (distinct.cloud->size() < 3) {
-    return result;
-  }
-  std::vector<PcaNormal> fitted(distinct.cloud->size());
+std::vector<PcaNormal> fitNormals(const NeighborSearch& search, int k, unsigned int num_threads) {
+  std::vector<PcaNormal> fitted(search.size());
   const std::vector<char> all(fitted.size(), 1);
-  NeighborSearch(distinct.cloud)
-      .forEachMoments(static_cast<std::size_t>(k), all, num_threads, [&](const MomentBatch& batch) {
+  search.forEachMoments(
+      static_cast<std::size_t>(k), all, num_threads, [&](const MomentBatch& batch) {
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
           if (batch.ids[lane] >= 0) {
             fitted[static_cast<std::size_t>(batch.ids[lane])] = fitNormal(batch, lane);
           }
         }
       });
+  return fitted;
+}
+
+}  // namespace
+
+std::vector<PcaNormal> estimatePcaNormals(const std::vector<Eigen::Vector3f>& positions, int& k,
+                                          unsigned int num_threads) {
+  k = k > 0 ? k : derivedNeighbors(positions);
+  DistinctPositions distinct = findDistinctPositions(positions, num_threads);
+  std::vector<PcaNormal> result;
+  if (distinct.cloud->size() < 3) {
+    result.resize(positions.size());
+    return result;
+  }
+  auto search = std::make_unique<NeighborSearch>(distinct.cloud);
+  distinct.cloud.reset();  // the search has its own, and the memory is wanted
+  const std::vector<PcaNormal> fitted = fitNormals(*search, k, num_threads);
+  search.reset();
+  result.resize(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (distinct.id_of_input[i] >= 0) {
       result[i] = fitted[static_cast<std::size_t>(distinct.id_of_input[i])];

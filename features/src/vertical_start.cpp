@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/features/detail/normal_counts.h>
 #include <storey/features/detail/vertical_kernels.h>
 #include <storey/filters/detail/chunks.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -32,6 +34,30 @@ Vectors3d everyNth(const Vectors3d& all, std::size_t limit) {
     some.push_back(all[i]);
   }
   return some;
+}
+
+// Of the normals across each of the candidates.
+std::vector<double> sharesAcross(const Vectors3d& normals, const Vectors3d& candidates,
+                                 int num_threads) {
+  std::array<std::vector<double>, 3> columns;
+  for (const Eigen::Vector3d& n : normals) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      columns[axis].push_back(n[static_cast<Eigen::Index>(axis)]);
+    }
+  }
+  const VectorColumns vectors = {columns[0].data(), columns[1].data(), columns[2].data(),
+                                 normals.size()};
+  std::vector<double> shares(candidates.size(), 0.0);
+  if (normals.empty()) {
+    return shares;
+  }
+#pragma omp parallel for num_threads(num_threads) schedule(dynamic, 64)
+  for (std::ptrdiff_t c = 0; c < static_cast<std::ptrdiff_t>(candidates.size()); ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    shares[i] = static_cast<double>(countAcross(vectors, candidates[i].data(), kWallGate)) /
+                static_cast<double>(normals.size());
+  }
+  return shares;
 }
 
 // Roofs and ground speak for the guess too: seen from the air they are most of the points, and
@@ -135,12 +161,7 @@ VerticalStart findVerticalStart(const Vectors3d& normals, const Eigen::Vector3d&
                                 int num_threads) {
   const Vectors3d some = everyNth(normals, kScoredNormals);
   const Vectors3d candidates = fibonacciHemisphere(kCandidates);
-  std::vector<double> scores(candidates.size());
-#pragma omp parallel for num_threads(num_threads) schedule(dynamic, 64)
-  for (std::ptrdiff_t c = 0; c < static_cast<std::ptrdiff_t>(candidates.size()); ++c) {
-    const auto i = static_cast<std::size_t>(c);
-    scores[i] = shareAcross(some, candidates[i], kWallGate);
-  }
+  const std::vector<double> scores = sharesAcross(some, candidates, num_threads);
   const auto best = static_cast<std::size_t>(
       std::distance(scores.begin(), std::max_element(scores.begin(), scores.end())));
   VerticalStart start;

@@ -40,10 +40,11 @@ struct Sample {
 };
 
 // Value at a share of the sorted order; reorders.
-double quantile(std::vector<double>& values, double share) {
+template <typename Number>
+double quantile(std::vector<Number>& values, double share) {
   const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
+  return static_cast<double>(values[static_cast<std::size_t>(rank)]);
 }
 
 // One number at random from each of `count` equal strata of [0, n): no repetitions, evenly spread.
@@ -185,7 +186,7 @@ double medianSpacing(const NeighborSearch& search, std::size_t n, std::mt19937& 
 
 double robustExtent(const Cloud& cloud) {
   double squared = 0.0;
-  std::vector<double> values(cloud.size());
+  std::vector<float> values(cloud.size());
   for (int axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       values[i] = cloud[i].data[axis];
@@ -216,6 +217,7 @@ CloudScale estimateCloudScale(const std::vector<Eigen::Vector3f>& input, std::ui
                               unsigned int threads) {
   CloudScale scale;
   DistinctPositions positions = findDistinctPositions(input, threads);
+  positions.id_of_input = {};  // its memory is wanted
   if (positions.cloud->size() < 2) {
     return scale;
   }

@@ -20,7 +20,7 @@ constexpr double kCellSide = 2.0;     // cells of the support of a wall: where w
 
 constexpr double kFirstFit = 16.0;  // points
 
-constexpr std::uint32_t kNowhere = 0xffffffff;  // as a cell or a patch
+constexpr std::uint32_t kNoCell = 0xffffffff;
 
 struct Plane {
   Eigen::Vector3d center;
@@ -53,10 +53,8 @@ class PatchGrowing {
  public:
   PatchGrowing(const std::vector<OrientedPoint>& points, const std::vector<char>& counts,
                const WallScale& scale)
-      : num_points_(points.size()),
-        side_(kCellSide * supportCellSize(scale)),
-        reach_(kReach * scale.noise) {
-    std::vector<std::uint32_t> cell_of(points.size(), kNowhere);
+      : points_(points), side_(kCellSide * supportCellSize(scale)), reach_(kReach * scale.noise) {
+    std::vector<std::uint32_t> cell_of(points.size(), kNoCell);
     std::vector<std::size_t> held;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (counts[i] == 0) continue;
@@ -66,35 +64,34 @@ class PatchGrowing {
       held.resize(cells_.size(), 0);
       ++held[cell_of[i]];
     }
-    sortByCell(points, cell_of, held);
+    sortByCell(cell_of, held);
     reached_.assign(cells_.size(), PlanarPatches::kNone);
+    result_.of.assign(points.size(), PlanarPatches::kNone);
   }
 
   PlanarPatches find() {
     for (const std::size_t cell : seeds()) grow(cell);
-    points_ = {};  // the result needs the memory
-    result_.of.assign(num_points_, PlanarPatches::kNone);
-    for (std::size_t k = 0; k < patch_.size(); ++k) {
-      if (patch_[k] != kNowhere) result_.of[number_[k]] = patch_[k];
-    }
     return std::move(result_);
   }
 
  private:
-  // The points cell by cell, in memory too: cells are visited again and again.
-  void sortByCell(const std::vector<OrientedPoint>& points,
-                  const std::vector<std::uint32_t>& cell_of, const std::vector<std::size_t>& held) {
+  // The numbers of the points only: those of a cell are near each other as they come.
+  void sortByCell(const std::vector<std::uint32_t>& cell_of, const std::vector<std::size_t>& held) {
     first_.assign(held.size() + 1, 0);
     std::partial_sum(held.begin(), held.end(), first_.begin() + 1);
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    points_.resize(first_.back());
     number_.resize(first_.back());
-    patch_.assign(first_.back(), kNowhere);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (cell_of[i] == kNowhere) continue;
-      const std::size_t place = next[cell_of[i]]++;
-      points_[place] = points[i];
-      number_[place] = static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < cell_of.size(); ++i) {
+      if (cell_of[i] != kNoCell) number_[next[cell_of[i]]++] = static_cast<std::uint32_t>(i);
+    }
+  }
+
+  // Calls `visit(point, patch)` for the points of a cell that are of no patch yet.
+  template <typename Patches, typename Visit>
+  void forEachFree(std::size_t cell, Patches& patch_of, const Visit& visit) const {
+    for (std::size_t k = first_[cell]; k < first_[cell + 1]; ++k) {
+      auto& patch = patch_of[number_[k]];
+      if (patch == PlanarPatches::kNone) visit(points_[number_[k]], patch);
     }
   }
   double heldIn(std::size_t cell) const {
@@ -105,12 +102,11 @@ class PatchGrowing {
   Eigen::Vector3d meanNormal(std::size_t cell) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double count = 0.0;
-    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-      if (patch_[i] != kNowhere) continue;
-      const Eigen::Vector3d n = points_[i].normal.cast<double>();
+    forEachFree(cell, result_.of, [&](const OrientedPoint& point, std::uint32_t) {
+      const Eigen::Vector3d n = point.normal.cast<double>();
       sum += n.dot(sum) < 0.0 ? Eigen::Vector3d(-n) : n;
       count += 1.0;
-    }
+    });
     return count > 0.0 ? Eigen::Vector3d(sum / count) : sum;
   }
 
@@ -130,15 +126,14 @@ class PatchGrowing {
   // Takes the free points of a cell that lie on the plane.
   double take(std::size_t cell, const Plane& plane, std::size_t patch, Moments& moments) {
     double taken = 0.0;
-    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-      if (patch_[i] != kNowhere) continue;
-      const Eigen::Vector3d p = points_[i].position.cast<double>();
-      if (std::abs(plane.normal.dot(p - plane.center)) > reach_) continue;
-      if (std::abs(plane.normal.dot(points_[i].normal.cast<double>())) < kAgreement) continue;
-      patch_[i] = static_cast<std::uint32_t>(patch);
+    forEachFree(cell, result_.of, [&](const OrientedPoint& point, std::uint32_t& patch_of_point) {
+      const Eigen::Vector3d p = point.position.cast<double>();
+      if (std::abs(plane.normal.dot(p - plane.center)) > reach_) return;
+      if (std::abs(plane.normal.dot(point.normal.cast<double>())) < kAgreement) return;
+      patch_of_point = static_cast<std::uint32_t>(patch);
       moments.add(p);
       taken += 1.0;
-    }
+    });
     return taken;
   }
 
@@ -148,9 +143,9 @@ class PatchGrowing {
     if (!(plane.normal.norm() > 0.0)) return false;
     plane.normal.normalize();
     Moments moments;
-    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) {
-      if (patch_[i] == kNowhere) moments.add(points_[i].position.cast<double>());
-    }
+    forEachFree(cell, result_.of, [&](const OrientedPoint& point, std::uint32_t) {
+      moments.add(point.position.cast<double>());
+    });
     plane.center = moments.center();
     return moments.count >= kMinInCell;
   }
@@ -190,14 +185,12 @@ class PatchGrowing {
     }
   }
 
-  std::size_t num_points_;
+  const std::vector<OrientedPoint>& points_;
   double side_;
   double reach_;
   GridCells cells_;
-  std::vector<std::size_t> first_;     // of each cell, of the points that follow
-  std::vector<OrientedPoint> points_;  // those that count, cell by cell
-  std::vector<std::uint32_t> number_;  // of each among all points
-  std::vector<std::uint32_t> patch_;   // of each, `kNowhere` while it is free
+  std::vector<std::size_t> first_;     // of each cell, of the numbers that follow
+  std::vector<std::uint32_t> number_;  // of the points that count, cell by cell
   std::vector<std::size_t> reached_;   // the last patch that did, of each cell
   PlanarPatches result_;
 };

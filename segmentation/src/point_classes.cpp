@@ -24,22 +24,24 @@ constexpr double kMinShare = 0.5;     // of the points in the cells of a patch
 constexpr double kBeside = 0.25;      // of the side of the least wall
 constexpr double kMinGroup = 0.1;     // of the upright points of the largest
 
-// The cubes of a grid that points lie in, and the number of each point's; `GridCells::kNone` for
-// those that do not count.
+constexpr std::uint32_t kNoCube = 0xffffffff;
+
+// The cubes of a grid that points lie in, and the number of each point's; `kNoCube` for those that
+// do not count.
 struct Cubes {
   GridCells cells;
-  std::vector<std::size_t> of;
+  std::vector<std::uint32_t> of;
 };
 
 template <typename Counts>
 Cubes cubesOf(const std::vector<OrientedPoint>& points, double side, const Counts& counts) {
   Cubes cubes;
-  cubes.of.resize(points.size(), GridCells::kNone);
+  cubes.of.resize(points.size(), kNoCube);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!counts(i)) continue;
     const Eigen::Vector3d p = points[i].position.cast<double>();
-    cubes.of[i] =
-        cubes.cells.add({cellAlong(p.x(), side), cellAlong(p.y(), side), cellAlong(p.z(), side)});
+    cubes.of[i] = static_cast<std::uint32_t>(
+        cubes.cells.add({cellAlong(p.x(), side), cellAlong(p.y(), side), cellAlong(p.z(), side)}));
   }
   return cubes;
 }
@@ -92,7 +94,7 @@ void findLeaning(const std::vector<OrientedPoint>& points, double side,
       cubesOf(points, side, [&](std::size_t i) { return classes[i] == PointClass::Wall; });
   std::vector<Lean> leans(cubes.cells.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (cubes.of[i] == GridCells::kNone) continue;
+    if (cubes.of[i] == kNoCube) continue;
     Lean& lean = leans[cubes.of[i]];
     const double nz = static_cast<double>(points[i].normal.z());
     lean.count += 1.0;
@@ -100,7 +102,7 @@ void findLeaning(const std::vector<OrientedPoint>& points, double side,
     lean.squares += nz * nz;
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (cubes.of[i] == GridCells::kNone) continue;
+    if (cubes.of[i] == kNoCube) continue;
     const Lean& lean = leans[cubes.of[i]];
     if (lean.count < kMinInCube) continue;
     const double mean = lean.sum / lean.count;
@@ -133,7 +135,7 @@ void findSmall(const std::vector<OrientedPoint>& points, const WallScale& scale,
   const PlanarPatches patches = findPlanarPatches(points, counts, scale);
   const double side = kBeside * std::sqrt(least_wall);
   const Cubes large = cubesOf(points, side, [&](std::size_t i) {
-    const std::size_t patch = patches.of[i];
+    const std::uint32_t patch = patches.of[i];
     return patch != PlanarPatches::kNone && patches.area[patch] > least_wall &&
            patches.share[patch] > kMinShare;
   });
@@ -147,7 +149,7 @@ void findSmall(const std::vector<OrientedPoint>& points, const WallScale& scale,
     return false;
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (counts[i] == 0 || large.of[i] != GridCells::kNone) continue;
+    if (counts[i] == 0 || large.of[i] != kNoCube) continue;
     if (!isBeside(points[i])) classes[i] = PointClass::Small;
   }
 }
@@ -166,7 +168,7 @@ void findApart(const std::vector<OrientedPoint>& points, double side,
   if (upright.empty()) return;
   const double least = kMinGroup * *std::max_element(upright.begin(), upright.end());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (cubes.of[i] == GridCells::kNone) continue;
+    if (cubes.of[i] == kNoCube) continue;
     if (upright[groups.find(cubes.of[i])] < least) classes[i] = PointClass::Apart;
   }
 }

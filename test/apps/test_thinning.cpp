@@ -135,7 +135,7 @@ TEST(Thinning, PartsAreTheWholeFile) {
     std::vector<double> positions;
     std::vector<float> normals;
     const auto take = [&](const io::RawCloud& part) {
-      EXPECT_LE(part.size(), size);
+      EXPECT_LE(part.size(), size + 10000);  // a block of the reader
       positions.insert(positions.end(), part.positions.begin(), part.positions.end());
       normals.insert(normals.end(), part.normals.begin(), part.normals.end());
     };

@@ -90,7 +90,7 @@ class XyzReader {
       for (int axis = 0; axis < 3; ++axis) raw_.normals.push_back(static_cast<float>(n[axis]));
       num_units_ += isUnit(n[0], n[1], n[2]) ? 1 : 0;
     }
-    raw_.settle();
+    raw_.settle(raw_.size() - 1);
     if (++raw_.declared % kCheckEvery == 0) {
       checkPoints(file_, raw_.declared + kCheckEvery, limits_);
     }

@@ -126,10 +126,11 @@ class DominantDirectionClustering : public pcl::PCLBase<PointT> {
   bool parametersValid() const;
   void clusterPoints(const pcl::PointCloud<NormalT>& normals,
                      std::vector<pcl::PointIndices>& clusters);
-  std::vector<std::size_t> chooseSample(const detail::LabelPoints& points) const;
-  void averageNormals(const std::vector<std::size_t>& sample, detail::LabelPoints& points) const;
+  std::vector<std::size_t> chooseSample(const detail::LabelPoints<Eigen::Vector3f>& points) const;
+  void averageNormals(const std::vector<std::size_t>& sample,
+                      detail::LabelPoints<Eigen::Vector3f>& points) const;
   std::vector<Eigen::Vector3d> findDirections(const detail::AngleHistogram& histogram);
-  std::vector<pcl::PointIndices> assignPoints(const detail::LabelPoints& points,
+  std::vector<pcl::PointIndices> assignPoints(const detail::LabelPoints<Eigen::Vector3f>& points,
                                               const std::vector<Eigen::Vector3d>& directions) const;
   void keepClusters(const std::vector<Eigen::Vector3d>& directions,
                     std::vector<pcl::PointIndices>& found,

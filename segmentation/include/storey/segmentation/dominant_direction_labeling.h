@@ -91,9 +91,11 @@ class DominantDirectionLabeling : public pcl::PCLBase<PointT> {
 
  private:
   bool parametersValid() const;
-  void labelPoints(const detail::LabelPoints& points, pcl::PointCloud<pcl::Label>& labels);
-  detail::PottsProblem makeProblem(const detail::LabelPoints& points, double& spacing) const;
-  std::vector<std::size_t> minimizeOverCells(const detail::LabelPoints& points,
+  void labelPoints(const detail::LabelPoints<Eigen::Vector3d>& points,
+                   pcl::PointCloud<pcl::Label>& labels);
+  detail::PottsProblem makeProblem(const detail::LabelPoints<Eigen::Vector3d>& points,
+                                   double& spacing) const;
+  std::vector<std::size_t> minimizeOverCells(const detail::LabelPoints<Eigen::Vector3d>& points,
                                              const detail::PottsProblem& problem) const;
 
   NormalsConstPtr normals_;

@@ -4,22 +4,13 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/types.h>
+#include <storey/filters/detail/morton_curve.h>
 
 #include <Eigen/Core>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
 namespace storey::detail {
-
-/// Largest coordinate that is searched: squared distances of points up to here fit into a float.
-constexpr float kLargestCoordinate = 1e18f;
-
-/// Whether a position can be searched: finite, and small enough to be squared.
-inline bool isSearchable(const Eigen::Vector3f& p) {
-  return std::abs(p.x()) <= kLargestCoordinate && std::abs(p.y()) <= kLargestCoordinate &&
-         std::abs(p.z()) <= kLargestCoordinate;  // false for NaN
-}
 
 /// The different positions among many. A k-d tree over m copies of one point visits all m for a
 /// query there; over distinct positions it never does, and the multiplicities give the same
@@ -33,6 +24,10 @@ struct DistinctPositions {
 
 /// O(n). Positions that are not `isSearchable` are left out (id -1). \param threads 0: all cores
 DistinctPositions findDistinctPositions(const std::vector<Eigen::Vector3f>& positions,
+                                        unsigned int threads = 1);
+
+/// The same, in the memory of the positions.
+DistinctPositions findDistinctPositions(std::vector<Eigen::Vector3f>&& positions,
                                         unsigned int threads = 1);
 
 /// The positions of a cloud of any point type.

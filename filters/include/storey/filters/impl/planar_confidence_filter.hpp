@@ -135,6 +135,7 @@ void PlanarConfidenceFilter<PointT>::chooseThreshold() {
     return;
   }
   std::vector<double> sorted;
+  sorted.reserve(confidences_.size());
   std::copy_if(confidences_.begin(), confidences_.end(), std::back_inserter(sorted),
                [](double confidence) { return !std::isnan(confidence); });
   if (sorted.empty()) {

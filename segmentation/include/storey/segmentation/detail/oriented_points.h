@@ -13,11 +13,13 @@
 
 namespace storey::detail {
 
-/// Points with a searchable position and a normal of length > 0.
+/// Points with a searchable position and a normal of length > 0. \tparam Normal a vector: floats
+/// take half the memory
+template <typename Normal>
 struct LabelPoints {
-  pcl::Indices indices;                  ///< into the cloud
-  std::vector<std::size_t> places;       ///< in the list of indices they were taken from
-  std::vector<Eigen::Vector3d> normals;  ///< unit length
+  pcl::Indices indices;         ///< into the cloud
+  pcl::Indices places;          ///< in the list of indices they were taken from
+  std::vector<Normal> normals;  ///< unit length
 
   std::size_t size() const { return indices.size(); }
 };
@@ -45,11 +47,11 @@ const pcl::PointCloud<NormalT>* chooseNormals(
 }
 
 /// \param normals parallel to `cloud`; the points keep the order of `indices`
-template <typename PointT, typename NormalT>
-LabelPoints collectOrientedPoints(const pcl::PointCloud<PointT>& cloud,
-                                  const pcl::PointCloud<NormalT>& normals,
-                                  const pcl::Indices& indices) {
-  LabelPoints result;
+template <typename Normal, typename PointT, typename NormalT>
+LabelPoints<Normal> collectOrientedPoints(const pcl::PointCloud<PointT>& cloud,
+                                          const pcl::PointCloud<NormalT>& normals,
+                                          const pcl::Indices& indices) {
+  LabelPoints<Normal> result;
   result.indices.reserve(indices.size());
   result.places.reserve(indices.size());
   result.normals.reserve(indices.size());
@@ -60,8 +62,8 @@ LabelPoints collectOrientedPoints(const pcl::PointCloud<PointT>& cloud,
     const double length = normal.norm();
     if (isSearchable({p.x, p.y, p.z}) && std::isfinite(length) && length > 0.0) {
       result.indices.push_back(indices[place]);
-      result.places.push_back(place);
-      result.normals.push_back(normal / length);
+      result.places.push_back(static_cast<pcl::index_t>(place));
+      result.normals.push_back((normal / length).cast<typename Normal::Scalar>());
     }
   }
   return result;

@@ -4,7 +4,7 @@
 #include <storey/segmentation/detail/oriented_point.h>
 #include <storey/segmentation/detail/wall_points.h>
 
-#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace storey::detail {
@@ -14,10 +14,10 @@ namespace storey::detail {
 /// normals lie within 30 degrees of it, and is fitted again whenever it has doubled. A point is of
 /// one patch at most.
 struct PlanarPatches {
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> of;  ///< of each point
-  std::vector<double> area;     ///< of each patch: of the cells with points of it
-  std::vector<double> share;    ///< of each patch, of the points in these cells
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  std::vector<std::uint32_t> of;  ///< of each point
+  std::vector<double> area;       ///< of each patch: of the cells with points of it
+  std::vector<double> share;      ///< of each patch, of the points in these cells
 };
 
 /// \param counts parallel to the points: those that take part

@@ -45,26 +45,28 @@ class PositionSearch {
       const PointT& p = cloud[static_cast<std::size_t>(i)];
       positions.emplace_back(p.x, p.y, p.z);
     }
-    DistinctPositions distinct = findDistinctPositions(positions, threads);
-    sites_ = distinct.cloud;
+    DistinctPositions distinct = findDistinctPositions(std::move(positions), threads);
+    distinct.multiplicity = {};  // its memory is wanted
+    const pcl::PointCloud<pcl::PointXYZ>::ConstPtr sites = distinct.cloud;
     site_of_point_ = std::move(distinct.id_of_input);
-    if (sites_->empty()) {
+    num_sites_ = sites->size();
+    if (sites->empty()) {
       return;
     }
     if (given_tree_) {
       auto given_sites = pcl::make_shared<pcl::PointCloud<PointT>>();
-      for (const pcl::PointXYZ& site : *sites_) {
+      for (const pcl::PointXYZ& site : *sites) {
         given_sites->emplace_back();
         given_sites->back().getVector3fMap() = site.getVector3fMap();
       }
       given_sites_ = given_sites;
       given_tree_->setInputCloud(given_sites_);
     } else {
-      search_ = std::make_unique<NeighborSearch>(sites_);
+      search_ = std::make_unique<NeighborSearch>(sites);
     }
   }
 
-  std::size_t numSites() const { return sites_->size(); }
+  std::size_t numSites() const { return num_sites_; }
 
   /// The site of the j-th of the points.
   std::size_t siteOf(std::size_t j) const { return static_cast<std::size_t>(site_of_point_[j]); }
@@ -104,7 +106,7 @@ class PositionSearch {
   typename Tree::Ptr given_tree_;
   typename pcl::PointCloud<PointT>::ConstPtr given_sites_;
   std::unique_ptr<NeighborSearch> search_;
-  pcl::PointCloud<pcl::PointXYZ>::ConstPtr sites_;
+  std::size_t num_sites_ = 0;
   pcl::Indices site_of_point_;
 };
 

@@ -77,12 +77,15 @@ bool DominantDirectionClustering<PointT, NormalT>::parametersValid() const {
 template <typename PointT, typename NormalT>
 void DominantDirectionClustering<PointT, NormalT>::clusterPoints(
     const pcl::PointCloud<NormalT>& normals, std::vector<pcl::PointIndices>& clusters) {
-  pcl::Indices indices = *this->indices_;
-  if (!std::is_sorted(indices.begin(), indices.end())) {
-    std::sort(indices.begin(), indices.end());
-  }
-  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-  detail::LabelPoints points = detail::collectOrientedPoints(*this->input_, normals, indices);
+  detail::LabelPoints<Eigen::Vector3f> points = [&] {
+    pcl::Indices indices = *this->indices_;
+    if (!std::is_sorted(indices.begin(), indices.end())) {
+      std::sort(indices.begin(), indices.end());
+    }
+    indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+    return detail::collectOrientedPoints<Eigen::Vector3f>(*this->input_, normals, indices);
+  }();
+  points.places = {};  // of no interest here
 
   const std::vector<std::size_t> sample = chooseSample(points);
   if (smoothing_neighbors_ > 1) {
@@ -90,8 +93,9 @@ void DominantDirectionClustering<PointT, NormalT>::clusterPoints(
   }
   detail::AngleHistogram histogram;
   for (const std::size_t j : sample) {
-    if (detail::isLevelNormal(points.normals[j], std::sin(max_tilt_))) {
-      histogram.add(std::atan2(points.normals[j].y(), points.normals[j].x()));
+    const Eigen::Vector3d normal = points.normals[j].cast<double>();
+    if (detail::isLevelNormal(normal, std::sin(max_tilt_))) {
+      histogram.add(std::atan2(normal.y(), normal.x()));
     }
   }
   const std::vector<Eigen::Vector3d> directions = findDirections(histogram);
@@ -101,7 +105,7 @@ void DominantDirectionClustering<PointT, NormalT>::clusterPoints(
 
 template <typename PointT, typename NormalT>
 std::vector<std::size_t> DominantDirectionClustering<PointT, NormalT>::chooseSample(
-    const detail::LabelPoints& points) const {
+    const detail::LabelPoints<Eigen::Vector3f>& points) const {
   constexpr std::uint64_t kAllHashes = std::numeric_limits<std::uint64_t>::max();
   std::vector<std::size_t> sample;
   if (max_samples_ == 0 || points.size() <= max_samples_) {
@@ -109,43 +113,47 @@ std::vector<std::size_t> DominantDirectionClustering<PointT, NormalT>::chooseSam
     std::iota(sample.begin(), sample.end(), std::size_t{0});
     return sample;
   }
-  std::vector<std::uint64_t> hash(points.size());
-  detail::forEachChunk(
-      points.size(), threads_, [&](std::size_t, std::size_t begin, std::size_t end) {
-        for (std::size_t j = begin; j < end; ++j) {
-          const PointT& p = (*this->input_)[static_cast<std::size_t>(points.indices[j])];
-          hash[j] = detail::hashOfPoint(Eigen::Vector3d(p.x, p.y, p.z), points.normals[j]);
-        }
-      });
-  // The least hashes; only those of about half as many again are sorted.
+  // The least hashes; only those of about half as many again are kept and sorted.
+  using Candidate = std::pair<std::uint64_t, std::size_t>;
   const double share = 1.5 * static_cast<double>(max_samples_) / static_cast<double>(points.size());
   std::uint64_t limit =
       share < 1.0 ? static_cast<std::uint64_t>(std::ldexp(share, 64)) : kAllHashes;
-  while (sample.size() < max_samples_) {
-    sample.clear();
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      if (hash[j] <= limit) {
-        sample.push_back(j);
-      }
+  std::vector<Candidate> candidates;
+  while (candidates.size() < max_samples_) {
+    std::vector<std::vector<Candidate>> of_chunk(detail::Chunks(points.size()).count());
+    detail::forEachChunk(
+        points.size(), threads_, [&](std::size_t c, std::size_t begin, std::size_t end) {
+          for (std::size_t j = begin; j < end; ++j) {
+            const PointT& p = (*this->input_)[static_cast<std::size_t>(points.indices[j])];
+            const std::uint64_t hash = detail::hashOfPoint(
+                Eigen::Vector3d(p.x, p.y, p.z), points.normals[j].template cast<double>());
+            if (hash <= limit) {
+              of_chunk[c].emplace_back(hash, j);
+            }
+          }
+        });
+    candidates.clear();
+    for (const std::vector<Candidate>& some : of_chunk) {
+      candidates.insert(candidates.end(), some.begin(), some.end());
     }
     limit = limit < kAllHashes / 2 ? 2 * limit : kAllHashes;
   }
-  const auto end = sample.begin() + static_cast<std::ptrdiff_t>(max_samples_);
-  std::nth_element(sample.begin(), end, sample.end(), [&hash](std::size_t i, std::size_t j) {
-    return std::make_pair(hash[i], i) < std::make_pair(hash[j], j);
-  });
-  sample.erase(end, sample.end());
+  const auto end = candidates.begin() + static_cast<std::ptrdiff_t>(max_samples_);
+  std::nth_element(candidates.begin(), end, candidates.end());
+  for (auto candidate = candidates.begin(); candidate != end; ++candidate) {
+    sample.push_back(candidate->second);
+  }
   return sample;
 }
 
 template <typename PointT, typename NormalT>
 void DominantDirectionClustering<PointT, NormalT>::averageNormals(
-    const std::vector<std::size_t>& sample, detail::LabelPoints& points) const {
+    const std::vector<std::size_t>& sample, detail::LabelPoints<Eigen::Vector3f>& points) const {
   constexpr double kSameFace = 0.5;  // cos 60 degrees: 4 deviations of 15 degrees
   const detail::PositionSearch<PointT> search(*this->input_, points.indices, tree_, threads_);
   std::vector<Eigen::Vector3f> site_normals(search.numSites(), Eigen::Vector3f::Zero());
   for (std::size_t j = 0; j < points.size(); ++j) {
-    site_normals[search.siteOf(j)] += points.normals[j].cast<float>();
+    site_normals[search.siteOf(j)] += points.normals[j];
   }
   if (search.numSites() < points.size()) {
     for (Eigen::Vector3f& normal : site_normals) {
@@ -156,7 +164,7 @@ void DominantDirectionClustering<PointT, NormalT>::averageNormals(
   std::sort(queries.begin(), queries.end(), [&search](std::size_t i, std::size_t j) {
     return std::make_pair(search.siteOf(i), i) < std::make_pair(search.siteOf(j), j);
   });
-  std::vector<Eigen::Vector3d> averages(queries.size());
+  std::vector<Eigen::Vector3f> averages(queries.size());
 #pragma omp parallel num_threads(detail::threadsFor(threads_))
   {
     pcl::Indices sites;
@@ -165,16 +173,15 @@ void DominantDirectionClustering<PointT, NormalT>::averageNormals(
     for (std::ptrdiff_t q = 0; q < static_cast<std::ptrdiff_t>(queries.size()); ++q) {
       const std::size_t j = queries[static_cast<std::size_t>(q)];
       search.nearest(search.siteOf(j), smoothing_neighbors_, sites, squared);
+      const Eigen::Vector3d own = points.normals[j].template cast<double>();
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       for (const pcl::index_t site : sites) {
         const Eigen::Vector3d normal =
             site_normals[static_cast<std::size_t>(site)].template cast<double>();
-        sum += normal.dot(points.normals[j]) >= kSameFace
-                   ? normal
-                   : Eigen::Vector3d(Eigen::Vector3d::Zero());
+        sum += normal.dot(own) >= kSameFace ? normal : Eigen::Vector3d(Eigen::Vector3d::Zero());
       }
       averages[static_cast<std::size_t>(q)] =
-          sum.squaredNorm() > 0.0 ? sum.normalized() : points.normals[j];
+          (sum.squaredNorm() > 0.0 ? sum.normalized() : own).template cast<float>();
     }
   }
   for (std::size_t q = 0; q < queries.size(); ++q) {
@@ -207,18 +214,20 @@ std::vector<Eigen::Vector3d> DominantDirectionClustering<PointT, NormalT>::findD
 
 template <typename PointT, typename NormalT>
 std::vector<pcl::PointIndices> DominantDirectionClustering<PointT, NormalT>::assignPoints(
-    const detail::LabelPoints& points, const std::vector<Eigen::Vector3d>& directions) const {
+    const detail::LabelPoints<Eigen::Vector3f>& points,
+    const std::vector<Eigen::Vector3d>& directions) const {
   const double least_cosine = std::cos(30.0 * M_PI / 180.0);  // 2.8 deviations of raw normals
   const double greatest_sine = std::sin(max_tilt_);
   std::vector<pcl::PointIndices> found(directions.size());
   for (std::size_t j = 0; j < points.size(); ++j) {
-    if (!detail::isLevelNormal(points.normals[j], greatest_sine)) {
+    const Eigen::Vector3d normal = points.normals[j].template cast<double>();
+    if (!detail::isLevelNormal(normal, greatest_sine)) {
       continue;
     }
     std::size_t nearest = directions.size();
-    double best = least_cosine * points.normals[j].head<2>().norm();
+    double best = least_cosine * normal.head<2>().norm();
     for (std::size_t d = 0; d < directions.size(); ++d) {
-      const double along = directions[d].dot(points.normals[j]);
+      const double along = directions[d].dot(normal);
       if (along > best || (along == best && nearest == directions.size())) {
         best = along;
         nearest = d;

@@ -26,7 +26,9 @@ void DominantDirectionLabeling<PointT, NormalT>::segment(pcl::PointCloud<pcl::La
     const pcl::PointCloud<NormalT>* normals =
         detail::chooseNormals<PointT, NormalT>(*this->input_, normals_, getClassName());
     if (normals != nullptr) {
-      labelPoints(detail::collectOrientedPoints(*this->input_, *normals, *this->indices_), labels);
+      labelPoints(
+          detail::collectOrientedPoints<Eigen::Vector3d>(*this->input_, *normals, *this->indices_),
+          labels);
     }
   }
   this->deinitCompute();
@@ -62,8 +64,8 @@ bool DominantDirectionLabeling<PointT, NormalT>::parametersValid() const {
 }
 
 template <typename PointT, typename NormalT>
-void DominantDirectionLabeling<PointT, NormalT>::labelPoints(const detail::LabelPoints& points,
-                                                             pcl::PointCloud<pcl::Label>& labels) {
+void DominantDirectionLabeling<PointT, NormalT>::labelPoints(
+    const detail::LabelPoints<Eigen::Vector3d>& points, pcl::PointCloud<pcl::Label>& labels) {
   double spacing = 0.0;
   const detail::PottsProblem problem = makeProblem(points, spacing);
   std::vector<std::size_t> label_of_point;
@@ -90,7 +92,7 @@ void DominantDirectionLabeling<PointT, NormalT>::labelPoints(const detail::Label
 // The energy on the graph of the points. Spacing: the median distance to the k-th neighbour.
 template <typename PointT, typename NormalT>
 detail::PottsProblem DominantDirectionLabeling<PointT, NormalT>::makeProblem(
-    const detail::LabelPoints& points, double& spacing) const {
+    const detail::LabelPoints<Eigen::Vector3d>& points, double& spacing) const {
   detail::PottsProblem problem;
   problem.num_labels = directions_.size();
   problem.data_costs.reserve(points.size() * directions_.size());
@@ -128,7 +130,7 @@ detail::PottsProblem DominantDirectionLabeling<PointT, NormalT>::makeProblem(
 
 template <typename PointT, typename NormalT>
 std::vector<std::size_t> DominantDirectionLabeling<PointT, NormalT>::minimizeOverCells(
-    const detail::LabelPoints& points, const detail::PottsProblem& problem) const {
+    const detail::LabelPoints<Eigen::Vector3d>& points, const detail::PottsProblem& problem) const {
   constexpr std::size_t kLinksAcrossCell = 4;  // a cell is 2.8 times as long as the longest link
   std::vector<Eigen::Vector3d> positions;
   for (const pcl::index_t i : points.indices) {
