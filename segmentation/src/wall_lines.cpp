@@ -17,13 +17,12 @@
 namespace storey::detail {
 namespace {
 
-constexpr std::size_t kForDirections = 50000;  // points that tell which directions there are
-constexpr int kFreeAngles = 360;               // one a degree, all around: lines are oriented
-constexpr double kFreeBin = 1.5;               // of the offset, noise deviations
-constexpr int kFreeWindow = 3;                 // bins
-constexpr double kLockedBin = 0.75;            // noise deviations
-constexpr int kLockedWindow = 5;               // bins
-constexpr double kMinVotes = 0.3;              // of the points that the least support would have
+constexpr int kFreeAngles = 360;          // one a degree, all around: lines are oriented
+constexpr double kFreeBin = 1.5;          // of the offset, noise deviations
+constexpr int kFreeWindow = 3;            // bins
+constexpr double kLockedBin = 0.75;       // noise deviations
+constexpr int kLockedWindow = 5;          // bins
+constexpr double kMinVotes = 0.3;         // of the points that the least support would have
 constexpr double kThin = 0.5;             // of the density of all: where its cells are too small
 constexpr double kThinnest = 1.0 / 16.0;  // thinner heights show clutter alone
 constexpr double kThinMiddle = 0.7;       // of an octave of densities
@@ -187,14 +186,12 @@ bool isLeftover(const std::vector<int>& support, const std::vector<WallLine>& st
 }
 
 // The directions that lines have which are found without knowing any.
-std::vector<double> findDirections(const std::vector<WallPoint>& points, WallScale scale,
+std::vector<double> findDirections(const std::vector<WallPoint>& points, const WallScale& scale,
                                    const WallLineOptions& options, TaskCrew& crew,
                                    const std::vector<double>& all_around) {
-  const std::vector<WallPoint> some = drawEvenly(points, kForDirections);
-  scale.density *= static_cast<double>(some.size()) / static_cast<double>(points.size());
-  std::vector<char> free(some.size(), 1);
+  std::vector<char> free(points.size(), 1);
   std::vector<FoundLine> lines;
-  extractGreedily(some, scale, options, crew, true, all_around, free, lines);
+  extractGreedily(points, scale, options, crew, true, all_around, free, lines);
   std::vector<double> oriented;
   for (const double angle : directionsOf(lines)) {
     oriented.push_back(angle);
