@@ -111,17 +111,19 @@ TEST(CurveSorting, NothingToSort) {
 // A point so far away that the others share a cell of the curve through all of it: they are in the
 // order of the curve without it all the same, as neighbours in it show.
 TEST(CurveSorting, AFewOutliersDoNotSpoilTheOrder) {
-  Positions positions = boxFaces(20000);
-  const auto meanStep = [](const Positions& records) {
-    double sum = 0.0;
-    for (std::size_t i = 1; i < 20000; ++i) {
-      sum += static_cast<double>((records[i] - records[i - 1]).norm());
-    }
-    return sum / 20000.0;
-  };
-  const double step = meanStep(sorted(positions));
-  positions.emplace_back(1e9f, 1e9f, 1e9f);
-  EXPECT_LT(meanStep(sorted(positions)), 2.0 * step);
+  for (const std::size_t n : {std::size_t{20000}, std::size_t{100000}}) {  // one part: few, many
+    const auto meanStep = [n](const Positions& records) {
+      double sum = 0.0;
+      for (std::size_t i = 1; i < n; ++i) {
+        sum += static_cast<double>((records[i] - records[i - 1]).norm());
+      }
+      return sum / static_cast<double>(n);
+    };
+    Positions positions = boxFaces(n);
+    const double step = meanStep(sorted(positions));
+    positions.emplace_back(1e9f, 1e9f, 1e9f);
+    EXPECT_LT(meanStep(sorted(positions)), 2.0 * step);
+  }
 }
 
 }  // namespace

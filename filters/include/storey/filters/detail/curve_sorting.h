@@ -158,10 +158,10 @@ std::vector<std::size_t> partAlongCurve(const Source& source, const MortonCurve&
   return begins;
 }
 
+/// \param begins of the parts \return what it has sorted
 template <typename Source, typename List>
-CurveCounts sortAlong(const Source& source, const MortonCurve& curve, unsigned int threads,
-                      List& records) {
-  const std::vector<std::size_t> begins = partAlongCurve(source, curve, threads, records);
+CurveCounts sortParts(const MortonCurve& curve, const std::vector<std::size_t>& begins,
+                      unsigned int threads, List& records) {
   std::size_t codes = 0;
   std::size_t positions = 0;
 #pragma omp parallel num_threads(threadsFor(threads)) reduction(+ : codes, positions)
@@ -176,6 +176,27 @@ CurveCounts sortAlong(const Source& source, const MortonCurve& curve, unsigned i
     }
   }
   return {codes, positions};
+}
+
+/// Whether more than half of many records are in one part, which no cache holds.
+inline bool areInOnePart(const std::vector<std::size_t>& begins) {
+  constexpr std::size_t kMany = std::size_t{1} << 16;
+  std::size_t largest = 0;
+  for (std::size_t part = 0; part < kCurveParts; ++part) {
+    largest = std::max(largest, begins[part + 1] - begins[part]);
+  }
+  return largest > std::max(kMany, begins.back() / 2);
+}
+
+/// The positions of records, without those that equal the one before.
+template <typename Source, typename List>
+std::vector<Eigen::Vector3f> changesAlong(const List& records) {
+  std::vector<Eigen::Vector3f> positions;
+  for (const auto& record : records) {
+    const Eigen::Vector3f p = Source::positionOf(record);
+    if (positions.empty() || positions.back() != p) positions.push_back(p);
+  }
+  return positions;
 }
 
 template <typename Source>
@@ -203,15 +224,17 @@ Eigen::AlignedBox3d boxOf(const Source& source, unsigned int threads) {
 /// \return the number of different positions
 template <typename Source, typename List>
 std::size_t sortAlongCurve(const Source& source, unsigned int threads, List& records) {
-  const Eigen::AlignedBox3d box = boxOf(source, threads);
-  const CurveCounts counts = sortAlong(source, MortonCurve(box), threads, records);
-  if (counts.codes >= counts.positions / 2) return counts.positions;
-  std::vector<Eigen::Vector3f> distinct;  // most share a cell with another
-  for (const auto& record : records) {
-    const Eigen::Vector3f p = Source::positionOf(record);
-    if (distinct.empty() || distinct.back() != p) distinct.push_back(p);
+  Eigen::AlignedBox3d box = boxOf(source, threads);
+  std::vector<std::size_t> begins = partAlongCurve(source, MortonCurve(box), threads, records);
+  if (areInOnePart(begins)) {
+    box = withoutOutliers(changesAlong<Source>(records), box);
+    begins = partAlongCurve(source, MortonCurve(box), threads, records);
   }
-  return sortAlong(source, MortonCurve(withoutOutliers(distinct, box)), threads, records).positions;
+  const CurveCounts counts = sortParts<Source>(MortonCurve(box), begins, threads, records);
+  if (counts.codes >= counts.positions / 2) return counts.positions;
+  const MortonCurve finer(withoutOutliers(changesAlong<Source>(records), box));
+  begins = partAlongCurve(source, finer, threads, records);
+  return sortParts<Source>(finer, begins, threads, records).positions;
 }
 
 }  // namespace storey::detail
