@@ -72,7 +72,7 @@ void RawCloud::begin(std::uint64_t num_points, const PointColumns& columns,
   limitPoints(limits.max_points);
   take_part_ = limits.take_part;
   has_normal_fields = columns.has_normals;
-  const std::uint64_t at_once = std::min(num_points, limits.max_points + kBlockBytes);
+  const std::uint64_t at_once = std::min(num_points, limits.max_points + 1);
   positions.reserve(3 * at_once);
   if (has_normal_fields) normals.reserve(3 * at_once);
   for (const std::string& name : columns.extra_names) {
@@ -144,8 +144,8 @@ void readBinaryRecords(InputFile& file, const std::vector<PointField>& fields,
   std::vector<PointField> wanted;
   for (const std::size_t field : columns.field) wanted.push_back(fields[field]);
   const std::uint64_t at_once = std::max<std::uint64_t>(kBlockBytes / record_bytes, 1);
-  for (std::uint64_t i = 0; i < raw.declared; i += at_once) {
-    const std::uint64_t count = std::min(at_once, raw.declared - i);
+  for (std::uint64_t i = 0, count = 0; i < raw.declared; i += count) {
+    count = std::min({at_once, raw.declared - i, raw.room()});
     raw.addRecords(file.take(count * record_bytes), record_bytes, count, wanted, big_endian);
   }
 }

@@ -78,6 +78,8 @@ struct RawCloud {
                   const std::vector<PointField>& fields, bool big_endian);
   std::uint64_t size() const { return positions.size() / 3; }
 
+  /// How many points to add, at most, before `settle`: not more than are kept, but one.
+  std::uint64_t room() const { return size() < max_points_ ? max_points_ - size() : 1; }
   /// To be called after some points, where they are thinned or handed on while they are read.
   /// \param first of the new ones
   void settle(std::size_t first);
@@ -109,8 +111,8 @@ struct ReadLimits {
   std::uint64_t max_points = kMaxPoints;                 ///< kept: more are thinned to so many
   std::uint64_t bytes_per_point = kLoaderBytesPerPoint;  ///< of those that are kept
 
-  /// Instead of thinning: takes on each part of `max_points` points or a block of the reader more,
-  /// in the order of the file, and only the last ones are left to be returned. For PLY and PCD.
+  /// Instead of thinning: takes each `max_points` points on, in the order of the file, and only the
+  /// last of them are left to be returned. For PLY and PCD.
   std::function<void(const RawCloud&)> take_part = {};
 
   /// For formats that are thinned only when they are read.
