@@ -4,6 +4,7 @@
 #include <ctime>
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <type_traits>
 
 #include "bench/isolation.h"
@@ -24,7 +25,8 @@ No truth is known. Upright points are those of planar surroundings (85 %% of the
 level: of the building, but also of its neighbours, of trees and cars. The deviation is that of the points about their walls,
 relief included. Explained: upright points within 3 deviations of the model. Of the building: the same of the points classed as wall
 (see "Classes of points" in method.md), that is without surfaces that lean by more than 8 degrees, without what is no surface of the size of
-a wall and beside none, such as crowns of trees, and without small groups that a gap separates from the rest; no model takes part in that. Supported: area of the model's walls with upright points within 3 deviations;
+a wall and beside none, such as crowns of trees, and without small groups that a gap separates from the rest; no model takes part in that. Supported: area of the model's walls with upright points
+within 3 deviations, those at corners and reveals that stage 2 leaves out among them, for a wall was seen there all the same;
 walls that trees hide or that nobody was behind have none. Not guessed: the same of the walls that the model does not mark
 as hypothetical.
 
@@ -38,7 +40,7 @@ struct Agreement {
   double noise = 0.0;
   double explained = 0.0;        ///< share of the upright points within 3 deviations
   double of_building = 0.0;      ///< the same of those that are of upright surfaces and not apart
-  double supported = 0.0;        ///< share of the model's wall area with such points
+  double supported = 0.0;        ///< share of the model's wall area with upright points
   double supported_shown = 0.0;  ///< the same of the walls that are not marked as guessed
   std::size_t polygons = 0;
   std::size_t blocks = 0;
@@ -56,27 +58,40 @@ reconstruct::Options optionsOf(const std::string& cloud, const std::string& text
   return options;
 }
 
+pcl::Indices allPoints(const stages::StageCloud& cloud) {
+  pcl::Indices indices(cloud.points->size());
+  std::iota(indices.begin(), indices.end(), 0);
+  return indices;
+}
+
+synth::CloudEvaluation evaluate(const reconstruct::Result& result, const pcl::Indices& indices) {
+  const Eigen::Isometry3d& upright = result.model.upright;  // the model's frame
+  std::vector<synth::OrientedPosition> points;
+  for (const pcl::index_t i : indices) {
+    const reconstruct::Point& p = (*result.cloud.points)[static_cast<std::size_t>(i)];
+    points.push_back({upright * p.getVector3fMap().cast<double>(),
+                      upright.linear() * p.getNormalVector3fMap().cast<double>()});
+  }
+  return synth::evaluateAgainstCloud(io::toPolygons(result.model.model), points,
+                                     Eigen::Vector3d::UnitZ(), result.cloud.state.noise,
+                                     result.cloud.state.density);
+}
+
+// What stage 2 leaves out, crowns of trees and the corners of walls, no model has to explain; but
+// it shows where walls were seen.
 Agreement agreementOf(const reconstruct::Options& options) {
   const std::clock_t start = std::clock();
   const reconstruct::Result result = reconstruct::reconstruct(options);
   Agreement a;
   a.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  const Eigen::Isometry3d& upright = result.model.upright;  // the model's frame
-  std::vector<synth::OrientedPosition> points;
-  for (const pcl::index_t i : planarPoints(result.cloud)) {
-    const reconstruct::Point& p = (*result.cloud.points)[static_cast<std::size_t>(i)];
-    points.push_back({upright * p.getVector3fMap().cast<double>(),
-                      upright.linear() * p.getNormalVector3fMap().cast<double>()});
-  }
-  const synth::CloudEvaluation e = synth::evaluateAgainstCloud(
-      io::toPolygons(result.model.model), points, Eigen::Vector3d::UnitZ(),
-      result.cloud.state.noise, result.cloud.state.density);
+  const synth::CloudEvaluation of_planar = evaluate(result, planarPoints(result.cloud));
+  const synth::CloudEvaluation of_all = evaluate(result, allPoints(result.cloud));
   a.points = result.cloud.points->size();
   a.noise = result.cloud.state.noise;
-  a.explained = e.explainedShare();
+  a.explained = of_planar.explainedShare();
   a.of_building = reconstruct::agreementWith(result).explained_of_building;
-  a.supported = e.supportedShare();
-  a.supported_shown = e.supportedShownShare();
+  a.supported = of_all.supportedShare();
+  a.supported_shown = of_all.supportedShownShare();
   a.polygons = result.model.model.faces.size();
   a.blocks = result.model.model.storeys.size();
   a.valid = result.model.check.ok();

@@ -60,10 +60,14 @@ class Hypotheses {
   }
 
   std::vector<PlanLine> make() {
-    addAll(betweenEnds(true), kMaxBetween);
-    addAll(betweenEnds(false), kMaxBetween);
-    addAll(throughEnds(), kMaxThrough);
-    return lines_;
+    closing_ = likeliest(betweenEnds(true), kMaxBetween);
+    // Any two ends have a line of their own: that it passes leaves an end as open as before.
+    const std::vector<PlanLine> through = likeliest(throughEnds(), kMaxThrough);
+    const std::vector<PlanLine> own = likeliest(betweenEnds(false), kMaxBetween);
+    std::vector<PlanLine> lines = closing_;
+    lines.insert(lines.end(), through.begin(), through.end());
+    lines.insert(lines.end(), own.begin(), own.end());
+    return lines;
   }
 
  private:
@@ -84,13 +88,13 @@ class Hypotheses {
   }
 
   bool isClosed(const WallEnd& end) const {
-    return std::any_of(lines_.begin(), lines_.end(), [&](const PlanLine& line) {
+    return std::any_of(closing_.begin(), closing_.end(), [&](const PlanLine& line) {
       return passes(line.normal, line.offset, end, kEndReach * noise_);
     });
   }
 
-  // A wall that was not seen joins two that end on it, in one of the known directions or, if there
-  // is none, in its own.
+  // A wall that was not seen joins two that end on it, in one of the known directions or in its
+  // own.
   std::vector<Hypothesis> betweenEnds(bool known) const {
     std::vector<Hypothesis> found;
     for (std::size_t i = 0; i < open_.size(); ++i) {
@@ -129,18 +133,18 @@ class Hypotheses {
     return found;
   }
 
-  void addAll(std::vector<Hypothesis> found, std::size_t most) {
+  std::vector<PlanLine> likeliest(std::vector<Hypothesis> found, std::size_t most) const {
     std::stable_sort(found.begin(), found.end(), isLikelier);
-    std::vector<PlanLine> added;
+    std::vector<PlanLine> lines;
     for (const Hypothesis& h : found) {
-      if (added.size() >= most) break;
-      const bool known = std::any_of(added.begin(), added.end(), [&](const PlanLine& line) {
+      if (lines.size() >= most) break;
+      const bool known = std::any_of(lines.begin(), lines.end(), [&](const PlanLine& line) {
         return line.normal == h.line.normal &&
                std::abs(line.offset - h.line.offset) < kEndReach * noise_;
       });
-      if (!known) added.push_back(h.line);
+      if (!known) lines.push_back(h.line);
     }
-    lines_.insert(lines_.end(), added.begin(), added.end());
+    return lines;
   }
 
   const std::vector<WallLine>& walls_;
@@ -148,7 +152,7 @@ class Hypotheses {
   double reach_;  // of the ends at a wall that was seen
   std::vector<Eigen::Vector2d> directions_;
   std::vector<WallEnd> open_;
-  std::vector<PlanLine> lines_;
+  std::vector<PlanLine> closing_;  // of a known direction, between two ends
 };
 
 }  // namespace

@@ -10,10 +10,11 @@ namespace storey::detail {
 
 /// Lines for walls that were not seen. Where one is missing, its neighbours end in nothing: at one
 /// place over much of a height (`WallEnd`), where no other wall was seen. A line explains such
-/// ends: one of a known direction through two of them at common heights; else one in the direction
-/// from one to the other; an end that is left alone gets a line of every other direction. What ends
-/// over most height comes first. No more than ten of either kind join ends, and 30 go through ends
-/// left alone: each end has one, of the direction commonest among the walls, before any has two.
+/// ends: one of a known direction through two of them at common heights; an end that is left alone
+/// gets a line of every other direction, and one in the direction from it to another such end. What
+/// ends over most height comes first. No more than ten of either kind join ends, and 30 go through
+/// ends left alone: each end has one, of the direction commonest among the walls, before any has
+/// two.
 /// Where all walls meet, there are none: lines that explain nothing would cut corners.
 /// \param corner_gap length by which the points of walls end short of corners
 std::vector<PlanLine> hypothesiseLines(const std::vector<WallLine>& walls,
