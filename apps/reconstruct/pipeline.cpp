@@ -15,14 +15,16 @@ namespace {
 
 using stages::StageCloud;
 
-// What the stages take for each point at their peak, measured by `bench performance`, and a third
-// more for clouds that are less kind.
-constexpr std::uint64_t kBytesPerPoint = 450;
+// What the stages of each method take for each point at their peak, measured by `bench
+// performance`, and a third more for clouds that are less kind.
+constexpr std::uint64_t kBuildingBytesPerPoint = 240;
+constexpr std::uint64_t kPaperBytesPerPoint = 500;
 
 io::CloudReaderOptions readerOptions(const Options& options) {
   io::CloudReaderOptions reader;
   reader.limits.max_memory = io::availableMemory();
-  reader.limits.bytes_per_point = kBytesPerPoint;
+  reader.limits.bytes_per_point =
+      options.method == Method::Paper ? kPaperBytesPerPoint : kBuildingBytesPerPoint;
   reader.threads = options.threads;
   if (options.max_points > 0) {
     reader.limits.max_points = static_cast<std::uint64_t>(options.max_points);
