@@ -4,6 +4,7 @@
 #include <storey/filters/detail/chunks.h>
 #include <storey/filters/detail/morton_curve.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
@@ -121,8 +122,7 @@ class CurveSorter {
   std::vector<std::uint32_t> places_;
 };
 
-constexpr int kPartAxisBits =
-    4;  // of the curve's parts: at 20 million points most fit into a cache
+constexpr int kPartAxisBits = 4;  // of the parts: of 20 million points most fit into a cache
 constexpr std::size_t kCurveParts = std::size_t{1} << (3 * kPartAxisBits);
 
 /// The records, each in its part of the curve. \return where each part begins, and the end
@@ -178,19 +178,48 @@ CurveCounts sortParts(const MortonCurve& curve, const std::vector<std::size_t>& 
   return {codes, positions};
 }
 
-/// Whether more than half of many records are in one part, which no cache holds.
-inline bool areInOnePart(const std::vector<std::size_t>& begins) {
-  constexpr std::size_t kMany = std::size_t{1} << 16;
+/// The part with the most records.
+inline std::size_t largestPart(const std::vector<std::size_t>& begins) {
   std::size_t largest = 0;
-  for (std::size_t part = 0; part < kCurveParts; ++part) {
-    largest = std::max(largest, begins[part + 1] - begins[part]);
+  for (std::size_t part = 1; part < kCurveParts; ++part) {
+    if (begins[part + 1] - begins[part] > begins[largest + 1] - begins[largest]) largest = part;
   }
-  return largest > std::max(kMany, begins.back() / 2);
+  return largest;
 }
 
-/// The positions of records, without those that equal the one before.
+/// Whether a part has more than half of many records, which no cache holds.
+inline bool isNearlyAll(const std::vector<std::size_t>& begins, std::size_t part) {
+  constexpr std::size_t kMany = std::size_t{1} << 16;
+  return begins[part + 1] - begins[part] > std::max(kMany, begins.back() / 2);
+}
+
+/// The positions of records in parts: each copy of those in the largest one, which would take long
+/// to sort, and one copy of each in the others, where an outlier may have many. What there is of
+/// each does not depend on the order of the source.
 template <typename Source, typename List>
-std::vector<Eigen::Vector3f> changesAlong(const List& records) {
+std::vector<Eigen::Vector3f> positionsInParts(const List& records,
+                                              const std::vector<std::size_t>& begins,
+                                              std::size_t largest) {
+  const auto before = [](const Eigen::Vector3f& p, const Eigen::Vector3f& q) {
+    return std::make_tuple(p.x(), p.y(), p.z()) < std::make_tuple(q.x(), q.y(), q.z());
+  };
+  std::vector<Eigen::Vector3f> positions;
+  positions.reserve(records.size());
+  for (std::size_t part = 0; part < kCurveParts; ++part) {
+    const auto first = static_cast<std::ptrdiff_t>(positions.size());
+    for (std::size_t i = begins[part]; i < begins[part + 1]; ++i) {
+      positions.push_back(Source::positionOf(records[i]));
+    }
+    if (part == largest) continue;
+    std::sort(positions.begin() + first, positions.end(), before);
+    positions.erase(std::unique(positions.begin() + first, positions.end()), positions.end());
+  }
+  return positions;
+}
+
+/// The different positions of sorted records.
+template <typename Source, typename List>
+std::vector<Eigen::Vector3f> distinctAlong(const List& records) {
   std::vector<Eigen::Vector3f> positions;
   for (const auto& record : records) {
     const Eigen::Vector3f p = Source::positionOf(record);
@@ -226,13 +255,13 @@ template <typename Source, typename List>
 std::size_t sortAlongCurve(const Source& source, unsigned int threads, List& records) {
   Eigen::AlignedBox3d box = boxOf(source, threads);
   std::vector<std::size_t> begins = partAlongCurve(source, MortonCurve(box), threads, records);
-  if (areInOnePart(begins)) {
-    box = withoutOutliers(changesAlong<Source>(records), box);
+  if (const std::size_t largest = largestPart(begins); isNearlyAll(begins, largest)) {
+    box = withoutOutliers(positionsInParts<Source>(records, begins, largest), box);
     begins = partAlongCurve(source, MortonCurve(box), threads, records);
   }
   const CurveCounts counts = sortParts<Source>(MortonCurve(box), begins, threads, records);
   if (counts.codes >= counts.positions / 2) return counts.positions;
-  const MortonCurve finer(withoutOutliers(changesAlong<Source>(records), box));
+  const MortonCurve finer(withoutOutliers(distinctAlong<Source>(records), box));
   begins = partAlongCurve(source, finer, threads, records);
   return sortParts<Source>(finer, begins, threads, records).positions;
 }
