@@ -117,7 +117,7 @@ LoadedCloud conditionCloud(RawCloud raw, const InputFile& file, unsigned int thr
     file.fail("has " + std::to_string(loaded.cloud->size()) + " distinct finite points of " +
                   std::to_string(loaded.declared) + ", at least " +
                   std::to_string(kMinDistinctPoints) + " are needed",
-              "check the export of the cloud");
+              loaded.thinned_out > 0 ? "keep more of them" : "check the export of the cloud");
   }
   return loaded;
 }

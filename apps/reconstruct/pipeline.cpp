@@ -72,13 +72,7 @@ class Pipeline {
     } else {
       extractSlices();
     }
-    stage("model", [&] {
-      const bool blocks = options_.method == Method::Building;
-      return buildModel(result_.all, blocks ? result_.blocks : result_.slices.layers,
-                        options_.method, options_.simplicity, options_.model, options_.threads,
-                        result_.model, partsOf(result_.loaded, result_.all, attitude),
-                        options_.steps);
-    });
+    stage("model", [&] { return fitModel(); });
     result_.local_to_input = modelToInput(cloud, result_.model);
     return std::move(result_);
   }
@@ -134,6 +128,17 @@ class Pipeline {
     stage("floorplans",
           [&] { return outlineSlices(sliced, options_.slices.linking, threads, result_.slices); });
     result_.cloud.state.slices = sliced.state.slices;
+  }
+
+  std::string fitModel() {
+    const stages::PartSource parts = partsOf(result_.loaded, result_.all, options_.attitude);
+    result_.fitted_to_all = parts || result_.loaded.thinned_out == 0;
+    const bool blocks = options_.method == Method::Building;
+    const std::string found =
+        buildModel(result_.all, blocks ? result_.blocks : result_.slices.layers, options_.method,
+                   options_.simplicity, options_.model, options_.threads, result_.model, parts,
+                   options_.steps);
+    return result_.fitted_to_all ? found : found + ", fitted to the sample alone";
   }
 
   const Options& options_;

@@ -30,6 +30,7 @@ struct Result {
   std::vector<FloorplanLayer> blocks;           ///< method building
   storey::detail::BuildingFloorplans building;  ///< how they were found
   LayerwiseModel model;
+  bool fitted_to_all = true;  ///< points of the file; else to the sample that was read
   Eigen::Isometry3d local_to_input = Eigen::Isometry3d::Identity();  ///< of the model
   std::vector<StageTime> times;
 };

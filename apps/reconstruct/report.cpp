@@ -49,6 +49,7 @@ Json describeInput(const Options& options, const Result& r) {
           {"structure_points", r.cloud.points->size()},
           {"declared", r.loaded.declared},
           {"thinned_out", r.loaded.thinned_out},
+          {"fitted_to_all", r.fitted_to_all},
           {"dropped_non_finite", r.loaded.dropped_non_finite},
           {"collapsed_duplicates", r.loaded.collapsed_duplicates},
           {"zero_normals", r.loaded.zero_normals},

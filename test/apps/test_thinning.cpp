@@ -125,6 +125,19 @@ TEST(Thinning, MemoryIsThatOfThePointsKept) {
   EXPECT_LE(io::readCloud(path, options).cloud->size(), 2000u);
 }
 
+// A sample of less than a cloud is not the fault of the file.
+TEST(Thinning, TooFewPointsKept) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("cloud.ply");
+  synth::writeCloudPly(path, sample(20000), false, true);
+  try {
+    readThinned(path, 1);
+    FAIL() << "a point is no cloud";
+  } catch (const io::Failure& failure) {
+    EXPECT_NE(std::string(failure.what()).find("keep more of them"), std::string::npos);
+  }
+}
+
 // Part by part a file gives all its points, in its order.
 TEST(Thinning, PartsAreTheWholeFile) {
   const TemporaryDirectory directory;
@@ -135,7 +148,7 @@ TEST(Thinning, PartsAreTheWholeFile) {
     std::vector<double> positions;
     std::vector<float> normals;
     const auto take = [&](const io::RawCloud& part) {
-      EXPECT_LE(part.size(), size + 10000);  // a block of the reader
+      EXPECT_LE(part.size(), size);
       positions.insert(positions.end(), part.positions.begin(), part.positions.end());
       normals.insert(normals.end(), part.normals.begin(), part.normals.end());
     };
@@ -165,6 +178,7 @@ TEST(Thinning, ModelIsThatOfAllPoints) {
   const PolyhedralModel whole = reconstructFile(path, 0).model.model;
   const reconstruct::Result thinned = reconstructFile(path, 30000);
   const PolyhedralModel& model = thinned.model.model;
+  EXPECT_TRUE(thinned.fitted_to_all);
   EXPECT_TRUE(thinned.model.check.ok());
   EXPECT_EQ(model.faces.size(), whole.faces.size());
   EXPECT_EQ(model.vertices.size(), whole.vertices.size());
@@ -181,8 +195,9 @@ TEST(Thinning, ModelIsThatOfAllPoints) {
   }
   synth::writeCloudPly(path, cloud, false, false);
   synth::writeCloudPly(part, pointsAt(placesOf(readThinned(path, 30000)), cloud), false, false);
-  EXPECT_EQ(reconstructFile(path, 30000).model.model.vertices,
-            reconstructFile(part, 0).model.model.vertices);
+  const reconstruct::Result just_part = reconstructFile(path, 30000);
+  EXPECT_FALSE(just_part.fitted_to_all);
+  EXPECT_EQ(just_part.model.model.vertices, reconstructFile(part, 0).model.model.vertices);
 }
 
 }  // namespace
