@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A cloud that is denser than its noise, thinned to what shows its structure.
-#include "stages/options.h"
+#include "cli/command_line.h"
 #include "stages/sampling.h"
 #include "tools/stage_program.h"
 
@@ -15,7 +15,9 @@ int main(int argc, char** argv) {
        "are\n"
        "left as they are. storey_layers then fits to all the points, of storey_vertical.",
        [&](storey::cli::CommandLine& line) {
-         storey::stages::declareStructurePoints(line, structure_points);
+         line.whole("structure-points", structure_points, 0,
+                    "points to keep [0 = as many as storey_vertical has noted, or else as the "
+                    "noise lets tell apart]");
        },
        {},
        [&](storey::stages::StageCloud& cloud, unsigned int threads) {
