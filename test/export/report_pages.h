@@ -14,7 +14,8 @@ namespace storey::test {
 inline std::string makeReport() {
   return R"({
     "program": "storey", "peak_megabytes": 1.0,
-    "input": {"file": "odd </script><b>name.ply", "points": 1000, "format": "ply"},
+    "input": {"file": "odd </script><b>name.ply", "points": 1000, "format": "ply",
+              "declared": 5000, "thinned_out": 4000, "fitted_to_all": true},
     "normals": {"estimated": true, "neighbors": 12},
     "vertical": {"deviation_deg": 0.01, "wall_share": 0.5},
     "space": {"side": "outside", "reason": "normals"},
@@ -32,7 +33,7 @@ inline std::string makeReport() {
     "support": {"wall_share_seen": 0.9, "level_share_seen": null},
     "model": {"valid": true, "polygons": 11, "walls": 8, "roofs": 2, "grounds": 1, "ceilings": 0,
               "volume": 180.0},
-    "seconds": {"read": 0.1, "total": 0.1}})";
+    "seconds": {"read": 0.1, "model": 0.1, "total": 0.2}})";
 }
 
 inline std::string writePage(const TemporaryDirectory& directory) {

@@ -48,6 +48,8 @@ window.addEventListener('load', () => {
     problems, colours: before.colours, still: before.picture === still.picture,
     turned: before.picture !== after.picture, picked,
     title: document.getElementById('title').textContent,
+    summary: document.getElementById('summary').textContent,
+    found: [...document.querySelectorAll('#stages td:nth-child(2)')].map(cell => cell.textContent),
     stages: count('#stages tr'), storeys: count('#storeys tr'), walls: count('#walls tr'),
     bars: count('#residuals rect'), tradeOff: count('#trade_off circle'),
     plans: count('.plans g[id^=storey_]'), pictures: count('#pictures img'),
@@ -71,7 +73,10 @@ TEST(ReportBrowser, DrawsTheModelWhichTheMouseTurns) {
   EXPECT_TRUE(seen["still"].get<bool>());
   EXPECT_TRUE(seen["turned"].get<bool>());
   EXPECT_EQ(seen["picked"].get<std::string>().rfind("Face ", 0), 0u) << seen["picked"];
-  EXPECT_EQ(seen["stages"], 1 + 2);
+  EXPECT_EQ(seen["summary"].get<std::string>().rfind("1000 of 5000 points to 11 polygons", 0), 0u);
+  EXPECT_EQ(seen["found"][0], "1000 of 5000 points, ply");
+  EXPECT_EQ(seen["found"][1], "8 walls, 2 roofs, 1 ground, 0 ceilings, fitted to all points");
+  EXPECT_EQ(seen["stages"], 1 + 3);
   EXPECT_EQ(seen["storeys"], 1 + 2);
   EXPECT_EQ(seen["walls"], 1 + 1);
   EXPECT_EQ(seen["bars"], 3);

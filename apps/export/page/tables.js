@@ -36,18 +36,24 @@
     return made;
   }
 
+  // How many there are; of a sample, of how many.
+  function pointsRead() {
+    const {points, declared, thinned_out} = report.input;
+    return thinned_out > 0 ? `${points} of ${declared} points` : `${points} points`;
+  }
+
   function head() {
     const state = report.model.valid ? 'closed and valid' : 'NOT VALID';
     byId('title').textContent = report.input.file.split('/').pop();
     byId('summary').textContent =
-        `${number(report.input.points, 12)} points to ${report.model.polygons} polygons, ${state}; ` +
+        `${pointsRead()} to ${report.model.polygons} polygons, ${state}; ` +
         `volume ${number(report.model.volume)}, noise ${number(report.scale.noise, 3)}. ` +
         `Lengths are in the cloud\u2019s unit. Made by ${report.program}.`;
     byId('summary').className = report.model.valid ? '' : 'bad';
   }
 
   const found = {
-    read: () => `${report.input.points} points, ${report.input.format}`,
+    read: () => `${pointsRead()}, ${report.input.format}`,
     normals: () => report.normals.estimated
         ? `estimated from ${report.normals.neighbors} neighbours` : 'given',
     vertical: () => `deviation ${number(report.vertical.deviation_deg, 3)} degrees, ` +
@@ -62,7 +68,9 @@
         : `${report.building.wall_lines.length} walls, ${report.building.cells} cells, ` +
           `${report.building.layers} layers`,
     model: () => `${report.model.walls} walls, ${report.model.roofs} roofs, ` +
-        `${report.model.grounds} ground, ${report.model.ceilings} ceilings`,
+        `${report.model.grounds} ground, ${report.model.ceilings} ceilings` +
+        (report.input.thinned_out > 0
+            ? `, fitted to ${report.input.fitted_to_all ? 'all points' : 'the sample alone'}` : ''),
   };
 
   function stages() {
