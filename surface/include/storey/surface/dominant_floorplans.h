@@ -31,7 +31,7 @@ struct DominantFloorplans {
   std::vector<int> types;              ///< type of each block, counted from 0 in order of height
   std::vector<int> slice_types;        ///< the same for each slice; -1: no floorplan, skipped
   int num_types = 0;                   ///< types in use
-  int num_candidates = 0;              ///< types that were chosen among: different strings of slices
+  int num_candidates = 0;  ///< types that were chosen among: different strings of slices
   std::size_t dictionary_size = 0;
   LayerLabeling labeling;  ///< energy, bound, whether it is optimal; labels are candidates
   std::vector<LayerTradeOff> trade_off;  ///< fit against number of types, if minimised exactly

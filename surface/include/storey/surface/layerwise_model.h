@@ -37,8 +37,8 @@ struct LayerwiseModel {
 /// chosen (11)-(15), their walls and heights fitted to all points, and extruded. Where the model
 /// has more than `max_faces` polygons, the same with one type less, down to a single one.
 /// \return an empty model if no slice has a floorplan
-LayerwiseModel buildLayerwiseModel(const std::vector<FloorplanLayer>& slices, const FitPoints& points,
-                                   const LayerwiseModelOptions& options);
+LayerwiseModel buildLayerwiseModel(const std::vector<FloorplanLayer>& slices,
+                                   const FitPoints& points, const LayerwiseModelOptions& options);
 
 /// The same from blocks whose floorplans are chosen already (edges carry wall ids, as from
 /// `BuildingFloorplanExtraction`): fit, extrusion and checks. Equal outlines are one type.

@@ -20,8 +20,8 @@ struct CountedHeights {
   void append(double height, double count);
 };
 
-/// Counts the heights of points in bins of at most an eighth of the noise: a bin's middle is off by a 28th
-/// of the noise, which adds a thousandth to its variance.
+/// Counts the heights of points in bins of at most an eighth of the noise: a bin's middle is off by
+/// a 28th of the noise, which adds a thousandth to its variance.
 class HeightHistogram {
  public:
   HeightHistogram() = default;
