@@ -31,7 +31,7 @@ MortonCurve::MortonCurve(const Eigen::AlignedBox3d& box) : low_(box.min()) {
   if (side > 0.0) scale_ = kLast / side;
 }
 
-Eigen::AlignedBox3d withoutOutliers(const std::vector<Eigen::Vector3f>& positions,
+Eigen::AlignedBox3d withoutOutliers(const std::vector<Eigen::Vector3f>& distinct,
                                     Eigen::AlignedBox3d box) {
   std::vector<std::size_t> counts;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -39,7 +39,7 @@ Eigen::AlignedBox3d withoutOutliers(const std::vector<Eigen::Vector3f>& position
       const double low = box.min()[axis];
       const double scale = kSlices / (box.max()[axis] - low);
       if (!std::isfinite(scale)) break;
-      const std::size_t total = countSlices(positions, axis, low, scale, counts);
+      const std::size_t total = countSlices(distinct, axis, low, scale, counts);
       if (total == 0) break;  // rounding left out the one place that nearly all share
       const std::size_t few = total / kFewShare;
       std::size_t first = 0;

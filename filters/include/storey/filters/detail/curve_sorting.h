@@ -178,42 +178,28 @@ CurveCounts sortParts(const MortonCurve& curve, const std::vector<std::size_t>& 
   return {codes, positions};
 }
 
-/// The part with the most records.
-inline std::size_t largestPart(const std::vector<std::size_t>& begins) {
-  std::size_t largest = 0;
-  for (std::size_t part = 1; part < kCurveParts; ++part) {
-    if (begins[part + 1] - begins[part] > begins[largest + 1] - begins[largest]) largest = part;
-  }
-  return largest;
-}
-
-/// Whether a part has more than half of many records, which no cache holds.
-inline bool isNearlyAll(const std::vector<std::size_t>& begins, std::size_t part) {
+/// Whether more than half of many records are in one part, which no cache holds.
+inline bool areInOnePart(const std::vector<std::size_t>& begins) {
   constexpr std::size_t kMany = std::size_t{1} << 16;
-  return begins[part + 1] - begins[part] > std::max(kMany, begins.back() / 2);
+  std::size_t largest = 0;
+  for (std::size_t part = 0; part < kCurveParts; ++part) {
+    largest = std::max(largest, begins[part + 1] - begins[part]);
+  }
+  return largest > std::max(kMany, begins.back() / 2);
 }
 
-/// The positions of records in parts: each copy of those in the largest one, which would take long
-/// to sort, and one copy of each in the others, where an outlier may have many. What there is of
-/// each does not depend on the order of the source.
+/// The different positions of records in any order. Copies must not count: a million of one point
+/// would make outliers of all others.
 template <typename Source, typename List>
-std::vector<Eigen::Vector3f> positionsInParts(const List& records,
-                                              const std::vector<std::size_t>& begins,
-                                              std::size_t largest) {
-  const auto before = [](const Eigen::Vector3f& p, const Eigen::Vector3f& q) {
-    return std::make_tuple(p.x(), p.y(), p.z()) < std::make_tuple(q.x(), q.y(), q.z());
-  };
+std::vector<Eigen::Vector3f> distinctPositions(const List& records) {
   std::vector<Eigen::Vector3f> positions;
   positions.reserve(records.size());
-  for (std::size_t part = 0; part < kCurveParts; ++part) {
-    const auto first = static_cast<std::ptrdiff_t>(positions.size());
-    for (std::size_t i = begins[part]; i < begins[part + 1]; ++i) {
-      positions.push_back(Source::positionOf(records[i]));
-    }
-    if (part == largest) continue;
-    std::sort(positions.begin() + first, positions.end(), before);
-    positions.erase(std::unique(positions.begin() + first, positions.end()), positions.end());
-  }
+  for (const auto& record : records) positions.push_back(Source::positionOf(record));
+  std::sort(positions.begin(), positions.end(),
+            [](const Eigen::Vector3f& p, const Eigen::Vector3f& q) {
+              return std::make_tuple(p.x(), p.y(), p.z()) < std::make_tuple(q.x(), q.y(), q.z());
+            });
+  positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
   return positions;
 }
 
@@ -255,8 +241,8 @@ template <typename Source, typename List>
 std::size_t sortAlongCurve(const Source& source, unsigned int threads, List& records) {
   Eigen::AlignedBox3d box = boxOf(source, threads);
   std::vector<std::size_t> begins = partAlongCurve(source, MortonCurve(box), threads, records);
-  if (const std::size_t largest = largestPart(begins); isNearlyAll(begins, largest)) {
-    box = withoutOutliers(positionsInParts<Source>(records, begins, largest), box);
+  if (areInOnePart(begins)) {
+    box = withoutOutliers(distinctPositions<Source>(records), box);
     begins = partAlongCurve(source, MortonCurve(box), threads, records);
   }
   const CurveCounts counts = sortParts<Source>(MortonCurve(box), begins, threads, records);

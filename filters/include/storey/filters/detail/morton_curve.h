@@ -69,7 +69,7 @@ class MortonCurve {
 
 /// The part of a box that holds all but a few of the positions on each axis, where the whole is
 /// much longer: a few outliers far away would leave one cell of the curve for all the others.
-Eigen::AlignedBox3d withoutOutliers(const std::vector<Eigen::Vector3f>& positions,
+Eigen::AlignedBox3d withoutOutliers(const std::vector<Eigen::Vector3f>& distinct,
                                     Eigen::AlignedBox3d box);
 
 }  // namespace storey::detail
