@@ -122,23 +122,33 @@ LoadedCloud conditionCloud(RawCloud raw, const InputFile& file, unsigned int thr
   return loaded;
 }
 
+DistinctPoints distinctPoints(const RawCloud& raw, const Eigen::Vector3d& offset,
+                              unsigned int threads) {
+  DistinctPoints points;
+  points.cloud = pcl::make_shared<pcl::PointCloud<pcl::PointNormal>>();
+  pcl::PointCloud<pcl::PointNormal>& cloud = *points.cloud;
+  const std::size_t num_distinct =
+      storey::detail::sortAlongCurve(LocalPoints(raw, offset), threads, cloud.points);
+  points.dropped_non_finite = raw.size() - cloud.points.size();
+  points.collapsed_duplicates = cloud.points.size() - num_distinct;
+  if (points.collapsed_duplicates > 0) mergeDuplicates(cloud);
+  cloud.width = static_cast<std::uint32_t>(num_distinct);
+  cloud.height = 1;
+  return points;
+}
+
 LoadedCloud conditionPoints(RawCloud raw, unsigned int threads) {
   LoadedCloud loaded;
-  loaded.cloud = pcl::make_shared<pcl::PointCloud<pcl::PointNormal>>();
   loaded.format = raw.format;
   loaded.declared = raw.declared;
   loaded.thinned_out = raw.declared - raw.size();
   loaded.offset = chooseOffset(raw.positions);
-  pcl::PointCloud<pcl::PointNormal>& cloud = *loaded.cloud;
-  const std::size_t num_distinct =
-      storey::detail::sortAlongCurve(LocalPoints(raw, loaded.offset), threads, cloud.points);
-  loaded.dropped_non_finite = raw.size() - cloud.points.size();
-  loaded.collapsed_duplicates = cloud.points.size() - num_distinct;
+  const DistinctPoints points = distinctPoints(raw, loaded.offset, threads);
   const bool may_have_normals = raw.has_normal_fields;
   raw = RawCloud();
-  if (loaded.collapsed_duplicates > 0) mergeDuplicates(cloud);
-  cloud.width = static_cast<std::uint32_t>(num_distinct);
-  cloud.height = 1;
+  loaded.cloud = points.cloud;
+  loaded.dropped_non_finite = points.dropped_non_finite;
+  loaded.collapsed_duplicates = points.collapsed_duplicates;
   if (may_have_normals) judgeNormals(loaded);
   return loaded;
 }

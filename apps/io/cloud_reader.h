@@ -65,4 +65,13 @@ LoadedCloud conditionCloud(RawCloud raw, const InputFile& file, unsigned int thr
 /// The same for any number of points.
 LoadedCloud conditionPoints(RawCloud raw, unsigned int threads = 1);
 
+/// The points of a file about an offset, as those of a `LoadedCloud` are.
+struct DistinctPoints {
+  pcl::PointCloud<pcl::PointNormal>::Ptr cloud;
+  std::size_t dropped_non_finite = 0;
+  std::size_t collapsed_duplicates = 0;
+};
+DistinctPoints distinctPoints(const RawCloud& raw, const Eigen::Vector3d& offset,
+                              unsigned int threads = 1);
+
 }  // namespace storey::io

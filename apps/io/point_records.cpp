@@ -72,7 +72,7 @@ void RawCloud::begin(std::uint64_t num_points, const PointColumns& columns,
   limitPoints(limits.max_points);
   take_part_ = limits.take_part;
   has_normal_fields = columns.has_normals;
-  const std::uint64_t at_once = std::min(num_points, limits.max_points + 1);
+  const std::uint64_t at_once = std::min(num_points, room() + 1);
   positions.reserve(3 * at_once);
   if (has_normal_fields) normals.reserve(3 * at_once);
   for (const std::string& name : columns.extra_names) {

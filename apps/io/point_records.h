@@ -56,9 +56,9 @@ struct ReadLimits;
 
 /// Points as they are in the file, in double precision: all of them, or where that would be too
 /// many a sample at random. A position belongs to it if a hash of its bits is below a limit, which
-/// falls by an eighth each time that there are too many. So the sample depends on the set of points
-/// and the greatest number alone, not on their order, and it is the same whether the points are
-/// thinned while they are read or afterwards.
+/// falls by an eighth each time that there are too many; where many are at one place, one counts.
+/// So the sample depends on the set of points and the greatest number alone, not on their order,
+/// and it is the same whether the points are thinned while they are read or afterwards.
 struct RawCloud {
   std::vector<double> positions;    ///< 3 a point
   std::vector<float> normals;       ///< 3 a point, or none at all
@@ -78,20 +78,26 @@ struct RawCloud {
                   const std::vector<PointField>& fields, bool big_endian);
   std::uint64_t size() const { return positions.size() / 3; }
 
-  /// How many points to add, at most, before `settle`: not more than are kept, but one.
-  std::uint64_t room() const { return size() < max_points_ ? max_points_ - size() : 1; }
+  /// How many points to add, at most, before `settle`.
+  std::uint64_t room() const;
   /// To be called after some points, where they are thinned or handed on while they are read.
-  /// \param first of the new ones
+  /// Leaves no more than an eighth beyond the limit. \param first of the new ones
   void settle(std::size_t first);
   /// Leaves a sample of at most so many points, without their viewers.
   void thin(std::uint64_t max_points);
-  /// What `settle` thins to.
+  /// What `settle` thins to, about.
   void limitPoints(std::uint64_t max_points) { max_points_ = max_points; }
 
  private:
   static constexpr std::uint64_t kAllKeys = ~std::uint64_t{0};
 
   void keepSample(std::size_t first);
+  /// Whether two of some thousand points share a place: those of a cloud of a million do where one
+  /// place has more than a thousandth of them, or where each point is there twice.
+  bool hasCopies() const;
+  /// Leaves one of the points at each place: that with the greatest normal.
+  void dropCopies();
+  void copyPoint(std::size_t from, std::size_t to);
   void cut(std::size_t num_points);
 
   std::uint64_t max_points_ = kMaxPoints;

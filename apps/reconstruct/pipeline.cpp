@@ -131,7 +131,8 @@ class Pipeline {
   }
 
   std::string fitModel() {
-    const stages::PartSource parts = partsOf(result_.loaded, result_.all, options_.attitude);
+    const stages::PartSource parts =
+        partsOf(result_.loaded, result_.all, options_.attitude, options_.threads);
     result_.fitted_to_all = parts || result_.loaded.thinned_out == 0;
     const bool blocks = options_.method == Method::Building;
     const std::string found =

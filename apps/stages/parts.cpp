@@ -10,24 +10,20 @@ namespace {
 constexpr std::uint64_t kPartPoints = 500000;
 
 // As the reader and the first stage leave them.
-Cloud toFrame(const io::RawCloud& raw, const StageState& state) {
-  const Eigen::Isometry3d to_frame = state.frame_to_input.inverse();
+Cloud toFrame(const io::RawCloud& raw, const Eigen::Vector3d& offset, const StageState& state,
+              unsigned int threads) {
+  const Eigen::Isometry3d to_frame = state.frame_to_input.inverse() * Eigen::Translation3d(offset);
   const double side = state.inside ? -1.0 : 1.0;
-  Cloud part;
-  part.reserve(raw.size());
-  for (std::size_t i = 0; i < raw.size(); ++i) {
-    const Eigen::Vector3d position =
-        to_frame * Eigen::Map<const Eigen::Vector3d>(&raw.positions[3 * i]);
-    const Eigen::Vector3d normal =
-        side * to_frame.linear() *
-        Eigen::Map<const Eigen::Vector3f>(&raw.normals[3 * i]).cast<double>();
-    const double length = normal.norm();
-    if (!position.allFinite() || !(length > 0.0) || !std::isfinite(length)) continue;
-    Point p;
-    p.getVector3fMap() = position.cast<float>();
-    p.getNormalVector3fMap() = (normal / length).cast<float>();
-    part.push_back(p);
+  Cloud part = std::move(*io::distinctPoints(raw, offset, threads).cloud);
+  std::size_t kept = 0;
+  for (const Point& p : part) {
+    const Eigen::Vector3f normal = p.getNormalVector3fMap();
+    if (normal.isZero(0.0f)) continue;
+    Point& to = part[kept++];
+    to.getVector3fMap() = (to_frame * p.getVector3fMap().cast<double>()).cast<float>();
+    to.getNormalVector3fMap() = (side * to_frame.linear() * normal.cast<double>()).cast<float>();
   }
+  part.resize(kept);
   return part;
 }
 
@@ -38,15 +34,16 @@ bool comesInParts(const std::string& format) {
 }  // namespace
 
 PartSource partsOf(const io::LoadedCloud& loaded, const StageCloud& cloud,
-                   const AttitudeOptions& options) {
+                   const AttitudeOptions& options, unsigned int threads) {
   const bool as_in_file =
       loaded.has_normals && !options.estimate_normals && !options.sensor.allFinite();
   if (loaded.thinned_out == 0 || !as_in_file || !comesInParts(loaded.format) ||
       io::hasVisibility(cloud.name)) {
     return {};
   }
-  return [name = cloud.name, state = cloud.state](const PartVisitor& visit) {
-    const auto take = [&](const io::RawCloud& raw) { visit(toFrame(raw, state)); };
+  return [name = cloud.name, offset = loaded.offset, state = cloud.state,
+          threads](const PartVisitor& visit) {
+    const auto take = [&](const io::RawCloud& raw) { visit(toFrame(raw, offset, state, threads)); };
     io::ReadLimits limits;
     limits.max_points = kPartPoints;
     limits.take_part = take;

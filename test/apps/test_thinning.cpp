@@ -11,6 +11,8 @@
 #include "io/failure.h"
 #include "io/raw_cloud.h"
 #include "reconstruct/pipeline.h"
+#include "stages/parts.h"
+#include "stages/stage_cloud_io.h"
 #include "synth/buildings.h"
 #include "synth/cloud_writer.h"
 #include "synth/sampling.h"
@@ -26,6 +28,11 @@ synth::SyntheticCloud sample(std::size_t points) {
   synth::SamplingOptions sampling;
   sampling.points = points;
   return synth::sampleBuilding(synth::makeBuilding("l_shape").layers, sampling);
+}
+
+void add(const Eigen::Vector3d& position, std::size_t times, synth::SyntheticCloud& cloud) {
+  cloud.positions.insert(cloud.positions.end(), times, position);
+  cloud.normals.insert(cloud.normals.end(), times, Eigen::Vector3d::UnitX());
 }
 
 io::LoadedCloud readThinned(const std::string& path, std::uint64_t max_points) {
@@ -92,6 +99,29 @@ TEST(Thinning, DoesNotDependOnTheOrderOfThePoints) {
     return placesOf(readThinned(directory.file(name), 1500));
   };
   EXPECT_EQ(placesIn("a.ply"), placesIn("b.ply"));
+}
+
+// What a scanner writes where nothing came back: of twenty such places, whatever their hash, some
+// are below the limit of the sample and some are not.
+TEST(Thinning, CopiesOfAPointCountOnce) {
+  const TemporaryDirectory directory;
+  synth::SyntheticCloud cloud = sample(20000);
+  for (int place = 0; place < 20; ++place) add(Eigen::Vector3d(0.0, 0.0, place), 1, cloud);
+  synth::writeCloudPly(directory.file("once.ply"), cloud, false, true);
+  for (int place = 0; place < 20; ++place) add(Eigen::Vector3d(0.0, 0.0, place), 3000, cloud);
+  synth::writeCloudPly(directory.file("last.ply"), cloud, false, true);
+  std::reverse(cloud.positions.begin(), cloud.positions.end());
+  std::reverse(cloud.normals.begin(), cloud.normals.end());
+  synth::writeCloudPly(directory.file("first.ply"), cloud, false, true);
+  for (const std::uint64_t limit : {1500, 6000}) {
+    const auto placesIn = [&](const char* name) {
+      return placesOf(readThinned(directory.file(name), limit));
+    };
+    const std::vector<Place> places = placesIn("once.ply");
+    EXPECT_GT(places.size(), limit * 3 / 4);
+    EXPECT_EQ(placesIn("last.ply"), places);
+    EXPECT_EQ(placesIn("first.ply"), places);
+  }
 }
 
 // Of each half of the building (in x) as large a share as of the whole, to four deviations.
@@ -164,6 +194,35 @@ TEST(Thinning, PartsAreTheWholeFile) {
       ASSERT_EQ(normals[3 * i + 2], static_cast<float>(cloud.normals[i].z()));
     }
   }
+}
+
+// The second reading leaves out what the first does: copies, what is no point, and what is too far.
+TEST(Thinning, PartsAreOfDistinctPoints) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("cloud.ply");
+  synth::SyntheticCloud cloud = sample(20000);
+  const std::vector<Eigen::Vector3d> once = cloud.positions;
+  add(once.front(), 30000, cloud);
+  add(Eigen::Vector3d(1e30, 0.0, 0.0), 1, cloud);
+  add(Eigen::Vector3d(std::nan(""), 0.0, 0.0), 1, cloud);
+  synth::writeCloudPly(path, cloud, false, true);
+  io::LoadedCloud loaded = readThinned(path, 2000);
+  const stages::StageCloud sampled = stages::fromLoaded(loaded, path);
+  const stages::PartSource parts = stages::partsOf(loaded, sampled, {}, 1);
+  ASSERT_TRUE(parts);
+  std::set<Place> places;
+  std::size_t count = 0;
+  parts([&](const stages::Cloud& part) {
+    for (const pcl::PointNormal& p : part) places.insert({p.x, p.y, p.z});
+    count += part.size();
+  });
+  EXPECT_EQ(count, once.size());
+  std::set<Place> expected;
+  for (const Eigen::Vector3d& p : once) {
+    const Eigen::Vector3f q = p.cast<float>();
+    expected.insert({q.x(), q.y(), q.z()});
+  }
+  EXPECT_EQ(places, expected);
 }
 
 // A tenth of the points tells the polygons of the model, and all of them where they are. A file
