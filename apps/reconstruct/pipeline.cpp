@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "reconstruct/pipeline.h"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 
+#include "io/failure.h"
 #include "stages/classes.h"
 #include "stages/parts.h"
 #include "stages/planar.h"
@@ -82,11 +84,30 @@ class Pipeline {
   void stage(const char* name, Work work) {
     const auto start = std::chrono::steady_clock::now();
     const std::clock_t cpu_start = std::clock();
-    const std::string found = work();
+    const std::string found = tryOnSample(work);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     const double cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
     result_.times.push_back({name, seconds.count(), cpu_seconds});
     observers_.progress(stages::format("%-11s %6.2f s  %s", name, seconds.count(), found.c_str()));
+  }
+
+  /// Where a stage finds nothing in the few points that the user asked for, that may be why.
+  template <typename Work>
+  std::string tryOnSample(Work work) const {
+    try {
+      return work();
+    } catch (const io::Failure& failure) {
+      const bool is_asked_for = options_.structure_points > 0;
+      const bool is_sample = is_asked_for || result_.loaded.thinned_out > 0;
+      if (failure.status() != io::BadInput || !result_.cloud.points || !is_sample) throw;
+      std::size_t looked_at = result_.cloud.points->size();
+      if (is_asked_for) {
+        looked_at = std::min(looked_at, static_cast<std::size_t>(options_.structure_points));
+      }
+      throw io::Failure(io::BadInput, "", failure.what(),
+                        stages::format("only %zu points were looked at (%s)", looked_at,
+                                       is_asked_for ? "--structure-points" : "--max-points"));
+    }
   }
 
   std::string take(io::LoadedCloud loaded) {

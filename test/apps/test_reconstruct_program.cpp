@@ -112,6 +112,14 @@ TEST_F(ReconstructProgram, NumbersThatDoNotFitTheCloudAreNamed) {
   }
 }
 
+TEST_F(ReconstructProgram, ASampleWithTooFewPointsIsNamed) {
+  for (const char* const option : {"--structure-points", "--max-points"}) {
+    const Outcome outcome = run(option + std::string(" 20"));
+    EXPECT_EQ(outcome.status, 65) << option;
+    EXPECT_NE(outcome.message.find(option), std::string::npos) << outcome.message;
+  }
+}
+
 TEST_F(ReconstructProgram, WritesWhatIsAskedForAndNoMore) {
   using Names = std::set<std::string>;
   EXPECT_EQ(runWell("").files, (Names{"model.ply", "model.obj", "model.mtl", "floorplans.geojson",
