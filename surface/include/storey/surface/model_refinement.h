@@ -11,8 +11,9 @@ namespace storey {
 
 /// Fits a model to more points than memory holds: it was made from a sample of them, and they come
 /// in parts, of which only sums are kept. Walls and heights are then those of all points, to a
-/// tenth of the error that the sample left; so are their deviations. What the faces are, and how
-/// much of each is covered, stays what the sample says.
+/// tenth of the error that the sample left; so are their deviations. Heights beside holes in the
+/// points may be off by a deviation or two: they are sought as far as the sample's density makes
+/// it needful. What the faces are, and how much of each is covered, stays what the sample says.
 ///
 /// Walls with next to no points stay where they are.
 class ModelRefinement {
