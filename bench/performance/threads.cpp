@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bench/markdown.h"
@@ -20,6 +21,13 @@ to its end, the cloud read and the model written. Without: the stages alone. The
 
 )";
 
+constexpr const char* kStagesText = R"(
+Where the second thread helps, and where not: wall seconds of each stage of the default method, each the best of the runs.
+
+)";
+constexpr const char* kStages[] = {"read",   "sampling", "vertical",   "orientation", "scale",
+                                   "planar", "classes",  "directions", "floorplans",  "model"};
+
 std::string programName(const std::string& method, int threads) {
   return "program, " + method + ", " + std::to_string(threads) + " thread" +
          (threads > 1 ? "s" : "");
@@ -29,11 +37,47 @@ std::string stagesName(const std::string& method, int threads) {
   return "stages of " + programName(method, threads);
 }
 
-/// Wall seconds of all stages but the reading, by the program's own report.
-double stageSeconds(const std::string& folder) {
+std::string stageName(const std::string& stage, const std::string& method, int threads) {
+  return "stage " + stage + " of " + programName(method, threads);
+}
+
+using StageSeconds = std::map<std::string, double>;  // of wall time
+
+/// Those of the program's own report.
+StageSeconds stageSeconds(const std::string& folder) {
   std::ifstream file(folder + "/report.json");
-  const nlohmann::json seconds = nlohmann::json::parse(file).at("seconds");
-  return seconds.at("total").get<double>() - seconds.at("read").get<double>();
+  return nlohmann::json::parse(file).at("seconds").get<StageSeconds>();
+}
+
+void takeLesser(const StageSeconds& seconds, StageSeconds& least) {
+  for (const auto& [stage, wall] : seconds) {
+    const auto [known, is_new] = least.emplace(stage, wall);
+    if (!is_new) known->second = std::min(known->second, wall);
+  }
+}
+
+/// The stages of the default method, in their order, at the sizes that one and two threads ran.
+void printStages(const Results& results) {
+  std::printf("%s", kStagesText);
+  const std::string method = "building";
+  std::vector<std::string> header = {"stage"};
+  std::vector<std::size_t> sizes;
+  for (const std::size_t size : results.sizes()) {
+    if (results.find(programName(method, 1), size) == nullptr) continue;
+    sizes.push_back(size);
+    header.insert(header.end(), {std::to_string(size) + ": 1 thread", "2 threads", "speed-up"});
+  }
+  Table table(header);
+  for (const char* stage : kStages) {
+    std::vector<std::string> cells = {stage};
+    for (const std::size_t size : sizes) {
+      const double one = results.find(stageName(stage, method, 1), size)->wall;
+      const double two = results.find(stageName(stage, method, 2), size)->wall;
+      cells.insert(cells.end(), {fixed(one, 3), fixed(two, 3), fixed(one / two, 2)});
+    }
+    table.add(cells);
+  }
+  table.print();
 }
 
 }  // namespace
@@ -43,6 +87,7 @@ void measurePrograms(std::size_t size, const std::string& cloud, const std::stri
   for (const int threads : {1, 2}) {
     Measured whole{programName(method, threads), 1e9, 1e9, 0.0};
     Measured stages{stagesName(method, threads), 1e9, 0.0, 0.0};
+    StageSeconds each;
     for (int i = 0; i < runs; ++i) {
       const ProgramRun run =
           runProgram("storey_reconstruct", {cloud, "-o", scratch, "--quiet", "--method", method,
@@ -51,10 +96,15 @@ void measurePrograms(std::size_t size, const std::string& cloud, const std::stri
       whole.wall = std::min(whole.wall, run.wall);
       whole.cpu = std::min(whole.cpu, run.cpu);
       whole.bytes = std::max(whole.bytes, run.peak_bytes);
-      stages.wall = std::min(stages.wall, stageSeconds(scratch));
+      const StageSeconds seconds = stageSeconds(scratch);
+      stages.wall = std::min(stages.wall, seconds.at("total") - seconds.at("read"));
+      takeLesser(seconds, each);
     }
     results.add(size, "", {whole});
     results.note(size, stages);
+    for (const auto& [stage, wall] : each) {
+      results.note(size, {stageName(stage, method, threads), wall, 0.0, 0.0});
+    }
   }
 }
 
@@ -85,6 +135,7 @@ void printSpeedUps(const Results& results) {
     }
   }
   table.print();
+  printStages(results);
 }
 
 }  // namespace storey::bench
