@@ -109,16 +109,29 @@ Json describeAgreement(const Result& r) {
           {"explained_share_of_building", agreement.explained_of_building}};
 }
 
+// The spread is that of the normals in plan: noise, and walls that share the direction roughly.
 Json describeDirections(const Result& r) {
   const std::vector<Eigen::Vector3d>& found = r.cloud.state.directions;
+  const std::vector<int>& direction_of = r.cloud.groups(stages::Direction);
   std::vector<std::size_t> num_points(found.size(), 0);
-  for (const int direction : r.cloud.groups(stages::Direction)) {
-    if (direction >= 0) ++num_points[static_cast<std::size_t>(direction)];
+  std::vector<double> squares(found.size(), 0.0);  // radians^2
+  for (std::size_t i = 0; i < direction_of.size(); ++i) {
+    if (direction_of[i] < 0) continue;
+    const auto direction = static_cast<std::size_t>(direction_of[i]);
+    const Eigen::Vector3d normal = (*r.cloud.points)[i].getNormalVector3fMap().cast<double>();
+    const Eigen::Vector2d wall = found[direction].head<2>();
+    const double across = wall.x() * normal.y() - wall.y() * normal.x();
+    const double angle = std::atan2(across, wall.dot(normal.head<2>()));
+    squares[direction] += angle * angle;
+    ++num_points[direction];
   }
   Json directions = Json::array();
   for (std::size_t i = 0; i < found.size(); ++i) {
+    const double spread =
+        std::sqrt(squares[i] / static_cast<double>(std::max<std::size_t>(num_points[i], 1)));
     directions.push_back({{"normal", vector(found[i])},
                           {"azimuth_deg", std::atan2(found[i].y(), found[i].x()) * kDegrees},
+                          {"spread_deg", spread * kDegrees},
                           {"points", num_points[i]}});
   }
   return directions;
@@ -306,6 +319,8 @@ std::string describe(const Options& options, const Result& r) {
                      {"reason", r.attitude.side_reason}};
   report["scale"] = {{"noise", r.cloud.state.noise},
                      {"measured_noise", r.attitude.scale.noise},
+                     {"measured_noise_deviation", r.attitude.scale.noise_deviation},
+                     {"measured_noise_share", r.attitude.scale.noise_share},
                      {"spacing", r.attitude.scale.spacing},
                      {"density", r.attitude.scale.density},
                      {"extent", r.attitude.scale.extent}};

@@ -124,28 +124,44 @@ Sampling sampleNeighborhoods(const NeighborSearch& search, const DistinctPositio
   return result;
 }
 
+struct CommonVariance {
+  double mean = 0.0;
+  double deviation = 0.0;  // of the mean
+  double share = 0.0;      // of the neighbourhoods have it
+};
+
 // The variance that the flat neighbourhoods share. Each of their estimates scatters about it like
 // chi-square with k - 3 degrees of freedom: relative deviation sqrt(2 / (k - 3)).
-double commonVariance(const Sampling& sampling) {
+CommonVariance commonVariance(const Sampling& sampling, std::size_t num_positions) {
   std::vector<double> variances;
   for (const Sample& s : sampling.neighborhoods) {
     variances.push_back(s.variance);
   }
-  const double scatter = std::sqrt(2.0 / (static_cast<double>(sampling.k) - 3.0));
+  const auto k = static_cast<double>(sampling.k);
+  const double scatter = std::sqrt(2.0 / (k - 3.0));
   // Wilson and Hilferty: the cube root of chi-square is nearly normal.
   const double ninth = scatter * scatter / 9.0;
   const double root = 1.0 - ninth + kNoiseQuantile * std::sqrt(ninth);
   const double start = quantile(variances, kNoiseShare) / (root * root * root);
   const double limit = start * (1.0 + kAcceptedDeviations * scatter);
   double sum = 0.0;
+  double squares = 0.0;
   double count = 0.0;
   for (const double v : variances) {
     if (v <= limit) {
       sum += v;
+      squares += v * v;
       ++count;
     }
   }
-  return sum / count;  // at least a quarter of the samples is below the start
+  CommonVariance common;
+  common.mean = sum / count;  // at least a quarter of the samples is below the start
+  common.share = count / static_cast<double>(variances.size());
+  // Neighbourhoods of a small cloud share their points.
+  const double apart = std::min(count, common.share * static_cast<double>(num_positions) / k);
+  const double spread = std::max(squares / count - common.mean * common.mean, 0.0);
+  common.deviation = std::sqrt(spread / std::max(apart, 1.0));
+  return common;
 }
 
 double medianRadius(const std::vector<Sample>& samples) {
@@ -231,10 +247,12 @@ CloudScale estimateCloudScale(const std::vector<Eigen::Vector3f>& input, std::ui
   const auto num_positions = static_cast<double>(positions.cloud->size());
   while (true) {
     const Sampling sampling = sampleNeighborhoods(*search, positions, random);
-    const double variance = commonVariance(sampling);
+    const CommonVariance variance = commonVariance(sampling, positions.cloud->size());
     const double kept_share = static_cast<double>(positions.cloud->size()) / num_positions;
-    scale.noise = std::sqrt(variance);
-    scale.density = surfaceDensity(sampling.neighborhoods, variance) / kept_share;
+    scale.noise = std::sqrt(variance.mean);
+    scale.noise_deviation = scale.noise > 0.0 ? 0.5 * variance.deviation / scale.noise : 0.0;
+    scale.noise_share = variance.share;
+    scale.density = surfaceDensity(sampling.neighborhoods, variance.mean) / kept_share;
     if (medianRadius(sampling.neighborhoods) >= kFlatRadius * scale.noise ||
         positions.cloud->size() < kMinThinned * kThinning) {
       return scale;

@@ -181,6 +181,20 @@ TEST_F(ReconstructProgram, TheReportCountsThePointsByTheirDistance) {
   EXPECT_NEAR(within / points, 0.683, 0.024);
 }
 
+// The cloud's noise is 0.1, its normals are turned by 15 degrees about any axis across them: by
+// 15 / sqrt(2) in plan.
+TEST_F(ReconstructProgram, TheReportTellsHowSureItsScalesAre) {
+  const Json report = runWell("").report;
+  const Json& scale = report["scale"];
+  const double deviation = scale["measured_noise_deviation"].get<double>();
+  EXPECT_GT(deviation, 0.0);
+  EXPECT_NEAR(scale["measured_noise"].get<double>(), 0.1, 0.002 + 3.0 * deviation);
+  EXPECT_GT(scale["measured_noise_share"].get<double>(), 0.25);
+  for (const Json& direction : report["directions"]) {
+    EXPECT_NEAR(direction["spread_deg"].get<double>(), 15.0 / std::sqrt(2.0), 1.0);
+  }
+}
+
 TEST_F(ReconstructProgram, TheTradeOffLeadsFromTheModelToSimplerOnes) {
   const Outcome plain = runWell("");
   const Outcome outcome = runWell("--trade-off");

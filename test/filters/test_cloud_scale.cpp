@@ -18,8 +18,8 @@ constexpr double kBoxArea = 2 * 20 * 15 + 2 * 12 * 15 + 20 * 12;
 
 // n points on the walls and lid of a box of 20 x 12 x 15, uniform by area, with isotropic noise.
 // The box is turned by 30 degrees, so that no axis is special.
-Cloud makeBox(std::size_t n, double noise, double scale = 1.0) {
-  std::mt19937 random(7);
+Cloud makeBox(std::size_t n, double noise, double scale = 1.0, unsigned seed = 7) {
+  std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::normal_distribution<double> normal(0.0, noise);
   std::discrete_distribution<int> face({20 * 15, 20 * 15, 12 * 15, 12 * 15, 20 * 12});
@@ -65,6 +65,28 @@ INSTANTIATE_TEST_SUITE_P(NoiseSizeAndUnit, ScaleOfABox,
 
 // A square lattice of step 1: the nearest other point is at 1, the density is 1, and the 1 % and
 // 99 % quantiles of 0..199 are 2 and 197 along both axes.
+// The scatter from draw to draw is the deviation that each draw tells of itself. Of 30 draws the
+// scatter is known to 13 %, so a factor of 2 is far out.
+TEST(CloudScale, TellsItsOwnError) {
+  for (const std::size_t n : {4000, 100000}) {
+    constexpr unsigned kDraws = 30;
+    double sum = 0.0;
+    double squares = 0.0;
+    double deviations = 0.0;
+    for (unsigned draw = 0; draw < kDraws; ++draw) {
+      const storey::CloudScale found = storey::estimateCloudScale(makeBox(n, 0.05, 1.0, draw));
+      sum += found.noise;
+      squares += found.noise * found.noise;
+      deviations += found.noise_deviation / kDraws;
+      EXPECT_GT(found.noise_share, 0.25);
+      EXPECT_LE(found.noise_share, 1.0);
+    }
+    const double scatter = std::sqrt((squares - sum * sum / kDraws) / (kDraws - 1));
+    EXPECT_GT(scatter / deviations, 0.5) << n;
+    EXPECT_LT(scatter / deviations, 2.0) << n;
+  }
+}
+
 TEST(CloudScale, MeasuresALattice) {
   Cloud cloud;
   for (int x = 0; x < 200; ++x) {
