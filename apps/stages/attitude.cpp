@@ -133,9 +133,10 @@ std::string measureScale(StageCloud& cloud, double given_noise, unsigned int thr
   }
   scale.density *= static_cast<double>(cloud.points->size()) / static_cast<double>(sample->size());
   cloud.state.density = scale.density;
-  cloud.state.noise = given_noise > 0.0 ? given_noise
-                                        : storey::detail::estimateWallNoise(
-                                              positions, normals, scale.noise, scale.extent);
+  cloud.state.noise = given_noise > 0.0
+                          ? given_noise
+                          : storey::detail::estimateWallNoise(positions, normals, scale.noise,
+                                                              scale.extent, threads);
   return format("noise %.3g (walls %.3g), spacing %.3g, %.3g points per unit of wall, extent %.3g",
                 scale.noise, cloud.state.noise, scale.spacing, scale.density, scale.extent);
 }

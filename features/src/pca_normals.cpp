@@ -16,8 +16,8 @@ constexpr int kFewestNeighbors = 16;
 constexpr int kMostNeighbors = 200;
 constexpr double kLine = 1e-9;  // second variance over the first below which no plane is spanned
 
-int derivedNeighbors(const std::vector<Eigen::Vector3f>& positions) {
-  const CloudScale scale = estimateCloudScale(positions, kDefaultScaleSeed);
+int derivedNeighbors(const std::vector<Eigen::Vector3f>& positions, unsigned int num_threads) {
+  const CloudScale scale = estimateCloudScale(positions, kDefaultScaleSeed, num_threads);
   const double k = kNeighborsPerNoise * scale.density * scale.noise * scale.noise;
   return static_cast<int>(std::lround(std::clamp<double>(k, kFewestNeighbors, kMostNeighbors)));
 }
@@ -58,7 +58,7 @@ std::vector<PcaNormal> fitNormals(const NeighborSearch& search, int k, unsigned 
 
 std::vector<PcaNormal> estimatePcaNormals(const std::vector<Eigen::Vector3f>& positions, int& k,
                                           unsigned int num_threads) {
-  k = k > 0 ? k : derivedNeighbors(positions);
+  k = k > 0 ? k : derivedNeighbors(positions, num_threads);
   DistinctPositions distinct = findDistinctPositions(positions, num_threads);
   std::vector<PcaNormal> result;
   if (distinct.cloud->size() < 3) {

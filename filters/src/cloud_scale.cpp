@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/filters/cloud_scale.h>
 #include <storey/filters/detail/neighbor_search.h>
+#include <storey/filters/detail/threads.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -111,16 +112,32 @@ struct Sampling {
   std::size_t k = 0;
 };
 
+// What `judge` says of the k nearest of some positions, parallel to them.
+template <typename Judge>
+auto judgeNearest(const NeighborSearch& search, const std::vector<std::size_t>& ids, std::size_t k,
+                  unsigned int threads, const Judge& judge) {
+  std::vector<decltype(judge(Neighborhood()))> found(ids.size());
+  const auto count = static_cast<std::ptrdiff_t>(ids.size());
+#pragma omp parallel num_threads(threadsFor(threads))
+  {
+    NeighborSearch::Workspace workspace;
+#pragma omp for schedule(dynamic, 32)
+    for (std::ptrdiff_t j = 0; j < count; ++j) {
+      const auto i = static_cast<std::size_t>(j);
+      found[i] = judge(search.nearest(static_cast<pcl::index_t>(ids[i]), k, workspace));
+    }
+  }
+  return found;
+}
+
 Sampling sampleNeighborhoods(const NeighborSearch& search, const DistinctPositions& positions,
-                             std::mt19937& random) {
+                             std::mt19937& random, unsigned int threads) {
   const std::size_t n = positions.cloud->size();
   Sampling result;
   result.k = std::min(n, std::clamp(n / kPointsPerNeighbor, kMinNeighbors, kMaxNeighbors));
-  NeighborSearch::Workspace workspace;
-  for (const std::size_t i : drawStratified(n, std::min(n, kSamples), random)) {
-    result.neighborhoods.push_back(describe(
-        search.nearest(static_cast<pcl::index_t>(i), result.k, workspace), positions.multiplicity));
-  }
+  result.neighborhoods = judgeNearest(
+      search, drawStratified(n, std::min(n, kSamples), random), result.k, threads,
+      [&](const Neighborhood& found) { return describe(found, positions.multiplicity); });
   return result;
 }
 
@@ -190,27 +207,24 @@ double surfaceDensity(std::vector<Sample> samples, double variance) {
   return densities.empty() ? 0.0 : quantile(densities, 0.5);
 }
 
-double medianSpacing(const NeighborSearch& search, std::size_t n, std::mt19937& random) {
-  std::vector<double> spacings;
-  NeighborSearch::Workspace workspace;
-  for (const std::size_t i : drawStratified(n, std::min(n, kSamples), random)) {
-    const Neighborhood two = search.nearest(static_cast<pcl::index_t>(i), 2, workspace);
-    spacings.push_back(std::sqrt(static_cast<double>(two.squaredRadius())));
-  }
+double medianSpacing(const NeighborSearch& search, std::mt19937& random, unsigned int threads) {
+  const std::size_t n = search.size();
+  std::vector<double> spacings = judgeNearest(
+      search, drawStratified(n, std::min(n, kSamples), random), 2, threads,
+      [](const Neighborhood& two) { return std::sqrt(static_cast<double>(two.squaredRadius())); });
   return quantile(spacings, 0.5);
 }
 
-double robustExtent(const Cloud& cloud) {
-  double squared = 0.0;
-  std::vector<float> values(cloud.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      values[i] = cloud[i].data[axis];
-    }
-    const double low = quantile(values, kBoxQuantile);
-    const double length = quantile(values, 1.0 - kBoxQuantile) - low;
-    squared += length * length;
+double robustExtent(const Cloud& cloud, unsigned int threads) {
+  double ends[6];  // lower and upper one of each axis
+#pragma omp parallel for num_threads(threadsFor(threads)) schedule(dynamic, 1)
+  for (std::ptrdiff_t end = 0; end < 6; ++end) {
+    std::vector<float> values(cloud.size());
+    for (std::size_t i = 0; i < cloud.size(); ++i) values[i] = cloud[i].data[end / 2];
+    ends[end] = quantile(values, end % 2 == 0 ? kBoxQuantile : 1.0 - kBoxQuantile);
   }
+  double squared = 0.0;
+  for (int end = 0; end < 6; end += 2) squared += std::pow(ends[end + 1] - ends[end], 2);
   return std::sqrt(squared);
 }
 
@@ -239,14 +253,14 @@ CloudScale estimateCloudScale(const std::vector<Eigen::Vector3f>& input, std::ui
   }
   std::mt19937 random(seed);
   auto search = std::make_unique<NeighborSearch>(positions.cloud);
-  scale.extent = robustExtent(*positions.cloud);
-  scale.spacing = medianSpacing(*search, positions.cloud->size(), random);
+  scale.extent = robustExtent(*positions.cloud, threads);
+  scale.spacing = medianSpacing(*search, random, threads);
   if (positions.cloud->size() < kMinPositions) {
     return scale;
   }
   const auto num_positions = static_cast<double>(positions.cloud->size());
   while (true) {
-    const Sampling sampling = sampleNeighborhoods(*search, positions, random);
+    const Sampling sampling = sampleNeighborhoods(*search, positions, random, threads);
     const CommonVariance variance = commonVariance(sampling, positions.cloud->size());
     const double kept_share = static_cast<double>(positions.cloud->size()) / num_positions;
     scale.noise = std::sqrt(variance.mean);

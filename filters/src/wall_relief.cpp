@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/threads.h>
 #include <storey/filters/detail/wall_relief.h>
 
 #include <algorithm>
@@ -128,45 +129,61 @@ void SampleCells::around(const Eigen::Vector3f& position,
   }
 }
 
+// Scatter about its wall of the points around the i-th; -1 if they are too few. \param near those
+// that may be, left changed
+double scatterAround(const std::vector<Eigen::Vector3f>& positions,
+                     const std::vector<Eigen::Vector3f>& normals, std::size_t i, double radius,
+                     double noise, std::vector<std::uint32_t>& near) {
+  const Eigen::Vector2f normal = normals[i].head<2>().normalized();
+  near.erase(std::remove_if(near.begin(), near.end(),
+                            [&](std::uint32_t j) {
+                              const Eigen::Vector3f r = positions[j] - positions[i];
+                              return r.squaredNorm() > radius * radius ||
+                                     normals[j].head<2>().dot(normal) < kNormalDot;
+                            }),
+             near.end());
+  if (near.size() < kMinPoints) return -1.0;
+  std::sort(near.begin(), near.end());
+  const std::size_t taken = std::min(near.size(), kMaxPoints);  // from all over the place
+  std::vector<Eigen::Vector2d> points;
+  for (std::size_t t = 0; t < taken; ++t) {
+    const std::uint32_t j = near[t * near.size() / taken];
+    points.push_back((positions[j] - positions[i]).head<2>().cast<double>());
+  }
+  return scatterAbout(points, normal.cast<double>(), kGate * noise);
+}
+
 }  // namespace
 
 double estimateWallRelief(const std::vector<Eigen::Vector3f>& positions,
-                          const std::vector<Eigen::Vector3f>& normals, double radius,
-                          double noise) {
-  std::vector<double> reliefs;
+                          const std::vector<Eigen::Vector3f>& normals, double radius, double noise,
+                          unsigned int threads) {
   const std::size_t n = positions.size();
   const std::size_t places = std::min(kPlaces, n);
   const SampleCells cells(positions, std::max<std::size_t>(1, n / kMostSearched), radius);
-  std::vector<std::uint32_t> near;
-  for (std::size_t k = 0; k < places; ++k) {
-    const std::size_t i = k * n / places;
-    const Eigen::Vector2f normal = normals[i].head<2>().normalized();
-    cells.around(positions[i], near);
-    near.erase(std::remove_if(near.begin(), near.end(),
-                              [&](std::uint32_t j) {
-                                const Eigen::Vector3f r = positions[j] - positions[i];
-                                return r.squaredNorm() > radius * radius ||
-                                       normals[j].head<2>().dot(normal) < kNormalDot;
-                              }),
-               near.end());
-    if (near.size() < kMinPoints) continue;
-    std::sort(near.begin(), near.end());
-    const std::size_t taken = std::min(near.size(), kMaxPoints);  // from all over the place
-    std::vector<Eigen::Vector2d> points;
-    for (std::size_t t = 0; t < taken; ++t) {
-      const std::uint32_t j = near[t * near.size() / taken];
-      points.push_back((positions[j] - positions[i]).head<2>().cast<double>());
+  std::vector<double> scatters(places);
+#pragma omp parallel num_threads(threadsFor(threads)) if (places > 1)
+  {
+    std::vector<std::uint32_t> near;
+#pragma omp for schedule(dynamic, 4)
+    for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(places); ++k) {
+      const std::size_t i = static_cast<std::size_t>(k) * n / places;
+      cells.around(positions[i], near);
+      scatters[static_cast<std::size_t>(k)] =
+          scatterAround(positions, normals, i, radius, noise, near);
     }
-    const double scatter = scatterAbout(points, normal.cast<double>(), kGate * noise);
-    if (scatter >= 0.0) reliefs.push_back(scatter);
   }
-  return reliefs.empty() ? noise : medianOf(reliefs);
+  scatters.erase(std::remove_if(scatters.begin(), scatters.end(), [](double s) { return s < 0.0; }),
+                 scatters.end());
+  return scatters.empty() ? noise : medianOf(scatters);
 }
 
 double estimateWallNoise(const std::vector<Eigen::Vector3f>& positions,
-                         const std::vector<Eigen::Vector3f>& normals, double noise, double extent) {
+                         const std::vector<Eigen::Vector3f>& normals, double noise, double extent,
+                         unsigned int threads) {
   const double least = std::max(noise, kLeastNoise * extent);
-  const double relief = estimateWallRelief(positions, normals, kReliefRadius * extent, least);
+  const double relief =
+      estimateWallRelief(positions, normals, kReliefRadius * extent, least, threads);
   return relief > kReliefRatio * least ? relief : least;
 }
 

@@ -127,6 +127,21 @@ TEST(CloudScale, OfTwoToSixPointsIsFinite) {
   }
 }
 
+TEST(CloudScale, IsTheSameForAnyNumberOfThreads) {
+  const std::vector<Eigen::Vector3f> positions = storey::detail::positionsOf(makeBox(100000, 0.1));
+  const auto measure = [&](unsigned int threads) {
+    return storey::detail::estimateCloudScale(positions, storey::kDefaultScaleSeed, threads);
+  };
+  const storey::CloudScale expected = measure(1);
+  for (const unsigned int threads : {2u, 3u}) {
+    const storey::CloudScale scale = measure(threads);
+    EXPECT_EQ(scale.noise, expected.noise);
+    EXPECT_EQ(scale.density, expected.density);
+    EXPECT_EQ(scale.spacing, expected.spacing);
+    EXPECT_EQ(scale.extent, expected.extent);
+  }
+}
+
 TEST(CloudScale, StandsNaNDuplicatesOutliersAndOrder) {
   const Cloud clean = makeBox(30000, 0.1);
   const storey::CloudScale expected = storey::estimateCloudScale(clean);

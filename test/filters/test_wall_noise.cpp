@@ -49,6 +49,15 @@ Wall makeWall(double noise, double relief, std::size_t n = 20000) {
   return wall;
 }
 
+TEST(WallNoise, IsTheSameForAnyNumberOfThreads) {
+  const Wall wall = makeWall(kNoise, 0.0);
+  const auto measure = [&](unsigned int threads) {
+    return estimateWallRelief(wall.positions, wall.normals, kRadius, kNoise, threads);
+  };
+  EXPECT_EQ(measure(2), measure(1));
+  EXPECT_EQ(measure(3), measure(1));
+}
+
 // Places overlap: some 50 neighbourhoods of 400 points are independent, the deviation of their
 // median is below 1 %.
 TEST(WallNoise, OfAPlaneIsThatOfItsPoints) {

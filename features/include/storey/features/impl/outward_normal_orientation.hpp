@@ -90,7 +90,8 @@ double OutwardNormalOrientation<PointT>::voxelSize() const {
   if (voxel_size_ > 0.0) {
     return voxel_size_;
   }
-  const CloudScale scale = estimateCloudScale(*this->input_);
+  const CloudScale scale =
+      detail::estimateCloudScale(detail::positionsOf(*this->input_), kDefaultScaleSeed, threads_);
   const double spacing =
       scale.density > 0.0 ? detail::kVoxelSpacing / std::sqrt(scale.density) : 0.0;
   return std::max(

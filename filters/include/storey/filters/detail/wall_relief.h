@@ -11,14 +11,18 @@ namespace storey::detail {
 /// \param positions, normals of points on walls, parallel; normals finite
 /// \param radius of the neighbourhood, in the cloud's unit
 /// \param noise of the points about their immediate neighbours, where the search starts
-/// \return robust standard deviation, the median over up to 400 places; `noise` where there are none
+/// \param threads 0: all cores
+/// \return robust standard deviation, the median over up to 400 places; `noise` where there are
+/// none
 double estimateWallRelief(const std::vector<Eigen::Vector3f>& positions,
-                          const std::vector<Eigen::Vector3f>& normals, double radius, double noise);
+                          const std::vector<Eigen::Vector3f>& normals, double radius, double noise,
+                          unsigned int threads = 1);
 
 /// The deviation of points about their walls that the later stages work with: the relief in a
 /// neighbourhood of a twentieth of the extent where that is clearly more than the noise, else the
 /// noise, and never less than 1e-5 of the extent.
 double estimateWallNoise(const std::vector<Eigen::Vector3f>& positions,
-                         const std::vector<Eigen::Vector3f>& normals, double noise, double extent);
+                         const std::vector<Eigen::Vector3f>& normals, double noise, double extent,
+                         unsigned int threads = 1);
 
 }  // namespace storey::detail
