@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stages/sampling.h"
 
+#include <pcl/common/io.h>
 #include <storey/filters/noise_limited_sampling.h>
 
 namespace storey::stages {
@@ -12,10 +13,9 @@ std::string findSampleSize(StageCloud& cloud, const SamplingOptions& options,
   sampling.setNoise(options.noise);
   sampling.setSampleSize(static_cast<std::size_t>(options.structure_points));
   sampling.setNumberOfThreads(threads);
-  pcl::Indices sample;
-  sampling.filter(sample);
-  cloud.state.sample_size = sample.size();
-  return format("%zu of %zu points show all that the noise lets tell apart", sample.size(),
+  sampling.filter(cloud.sample);
+  cloud.state.sample_size = cloud.sample.size();
+  return format("%zu of %zu points show all that the noise lets tell apart", cloud.sample.size(),
                 cloud.points->size());
 }
 
@@ -25,10 +25,14 @@ bool isSampled(const StageCloud& cloud) {
 
 Cloud::Ptr samplePoints(const StageCloud& cloud) {
   if (!isSampled(cloud)) return cloud.points;
+  const auto sample = pcl::make_shared<Cloud>();
+  if (cloud.sample.size() == cloud.state.sample_size) {
+    pcl::copyPointCloud(*cloud.points, cloud.sample, *sample);
+    return sample;
+  }
   NoiseLimitedSampling<Point> sampling;
   sampling.setInputCloud(cloud.points);
   sampling.setSampleSize(cloud.state.sample_size);
-  const auto sample = pcl::make_shared<Cloud>();
   sampling.filter(*sample);
   return sample;
 }
@@ -36,6 +40,7 @@ Cloud::Ptr samplePoints(const StageCloud& cloud) {
 StageCloud sampleOf(const StageCloud& cloud) {
   StageCloud sample = cloud;
   sample.points = samplePoints(cloud);
+  sample.sample = {};
   sample.state.density *= static_cast<double>(sample.points->size()) /
                           static_cast<double>(std::max<std::size_t>(cloud.points->size(), 1));
   return sample;

@@ -41,6 +41,7 @@ struct StageCloud {
   Cloud::Ptr points = pcl::make_shared<Cloud>();
   bool has_normals = false;
   StageState state;
+  pcl::Indices sample;  ///< places of the `state.sample_size` points, where they are at hand
   std::vector<float> confidences;  ///< planar confidence of each point, or none
   /// By `Group`: of each point, -1 none; or none.
   std::array<std::vector<int>, kGroupNames.size()> groups_of;

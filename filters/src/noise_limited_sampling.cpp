@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/filters/cloud_scale.h>
-#include <storey/filters/detail/even_draw.h>
 #include <storey/filters/noise_limited_sampling.h>
 
 #include <algorithm>
@@ -14,14 +13,13 @@ constexpr std::size_t kFirstPoints = 200000;
 
 }  // namespace
 
-std::size_t noiseLimitedSize(const std::vector<Eigen::Vector3f>& positions, double noise,
+std::size_t noiseLimitedSize(std::size_t size, const DrawPositions& draw, double noise,
                              double points_per_noise_area, std::size_t least,
                              unsigned int threads) {
-  const auto all = static_cast<double>(positions.size());
+  const auto all = static_cast<double>(size);
   std::size_t count = std::max(least, kFirstPoints);
-  while (count < positions.size()) {
-    const CloudScale scale =
-        estimateCloudScale(drawEvenly(positions, count), kDefaultScaleSeed, threads);
+  while (count < size) {
+    const CloudScale scale = estimateCloudScale(draw(count), kDefaultScaleSeed, threads);
     const double deviation = noise > 0.0 ? noise : scale.noise;
     const double share_per_noise_area =
         scale.density * deviation * deviation / static_cast<double>(count);
@@ -33,7 +31,7 @@ std::size_t noiseLimitedSize(const std::vector<Eigen::Vector3f>& positions, doub
     }
     count = static_cast<std::size_t>(wanted);
   }
-  return positions.size();
+  return size;
 }
 
 }  // namespace storey::detail

@@ -6,17 +6,23 @@
 #include <storey/filters/detail/distinct_positions.h>
 #include <storey/filters/eigen_alignment.h>
 
+#include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace storey {
 
 namespace detail {
 
+/// So many of some positions, evenly drawn.
+using DrawPositions = std::function<std::vector<Eigen::Vector3f>(std::size_t count)>;
+
 /// How many of the positions show all the shape that the noise lets tell apart: see
-/// `NoiseLimitedSampling`. \param noise of the points about their surfaces; 0: measured
-/// \param points_per_noise_area > 0 \param least of the result, but never more than there are
-std::size_t noiseLimitedSize(const std::vector<Eigen::Vector3f>& positions, double noise,
+/// `NoiseLimitedSampling`. \param size how many there are \param draw called for fewer than that
+/// \param noise of the points about their surfaces; 0: measured \param points_per_noise_area > 0
+/// \param least of the result, but never more than there are
+std::size_t noiseLimitedSize(std::size_t size, const DrawPositions& draw, double noise,
                              double points_per_noise_area, std::size_t least, unsigned int threads);
 
 }  // namespace detail

@@ -8,9 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <pcl/filters/impl/filter_indices.hpp>  // lets point types unknown to PCL link
 #include <pcl/impl/pcl_base.hpp>
+#include <utility>
 
 namespace storey {
 
@@ -36,7 +36,11 @@ void NoiseLimitedSampling<PointT>::applyFilter(pcl::Indices& kept) {
     const PointT& p = (*this->input_)[static_cast<std::size_t>(i)];
     if (pcl::isXYZFinite(p)) finite.push_back(i);
   }
-  const pcl::Indices drawn = detail::drawEvenly(finite, sizeFor(finite));
+  pcl::Indices drawn = detail::drawEvenly(finite, sizeFor(finite));
+  if (!this->negative_ && !this->extract_removed_indices_) {
+    kept = std::move(drawn);
+    return;
+  }
   // Places in `finite` and `drawn` go up together, though indices may come in any order.
   auto next = drawn.begin();
   for (const pcl::index_t i : finite) {
@@ -55,14 +59,17 @@ template <typename PointT>
 std::size_t NoiseLimitedSampling<PointT>::sizeFor(const pcl::Indices& finite) const {
   if (sample_size_ > 0) return sample_size_;
   if (finite.size() <= least_points_) return finite.size();
-  std::vector<Eigen::Vector3f> positions;
-  positions.reserve(finite.size());
-  for (const pcl::index_t i : finite) {
-    const PointT& p = (*this->input_)[static_cast<std::size_t>(i)];
-    positions.emplace_back(p.x, p.y, p.z);
-  }
-  return detail::noiseLimitedSize(positions, noise_, points_per_noise_area_, least_points_,
-                                  threads_);
+  const auto draw = [&](std::size_t count) {
+    std::vector<Eigen::Vector3f> positions;
+    positions.reserve(count);
+    for (const pcl::index_t i : detail::drawEvenly(finite, count)) {
+      const PointT& p = (*this->input_)[static_cast<std::size_t>(i)];
+      positions.emplace_back(p.x, p.y, p.z);
+    }
+    return positions;
+  };
+  return detail::noiseLimitedSize(finite.size(), draw, noise_, points_per_noise_area_,
+                                  least_points_, threads_);
 }
 
 template <typename PointT>
