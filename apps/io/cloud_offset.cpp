@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/cloud_offset.h"
 
+#include <storey/filters/detail/chunks.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,21 +35,37 @@ std::uint64_t drawOf(const double* position) {
   return mixBits(sum);
 }
 
-/// Every `stride`-th point on average, chosen by its coordinates so that the order of the points
-/// does not matter.
-Axes sampleAxes(const std::vector<double>& positions, std::uint64_t stride) {
+/// Of the points from `begin` to `end`, every `stride`-th on average, chosen by its coordinates so
+/// that the order of the points does not matter.
+Axes samplePart(const std::vector<double>& positions, std::size_t begin, std::size_t end,
+                std::uint64_t stride) {
   const std::uint64_t last_draw = ~std::uint64_t{0} / stride;
   Axes axes;
-  for (std::vector<double>& axis : axes)
-    axis.reserve(std::min(positions.size() / 3, 2 * kSampleSize));
-  for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
-    const double* const point = &positions[i];
+  for (std::size_t i = begin; i < end; ++i) {
+    const double* const point = &positions[3 * i];
     if (drawOf(point) > last_draw) continue;
     const bool usable = std::all_of(point, point + 3, [](double coordinate) {
       return std::abs(coordinate) < kMaxUsableCoordinate;
     });
     if (!usable) continue;
     for (std::size_t axis = 0; axis < 3; ++axis) axes[axis].push_back(point[axis]);
+  }
+  return axes;
+}
+
+Axes sampleAxes(const std::vector<double>& positions, std::uint64_t stride, unsigned int threads) {
+  using storey::detail::Chunks;
+  const std::size_t size = positions.size() / 3;
+  std::vector<Axes> parts(Chunks(size).count());
+  storey::detail::forEachChunk(size, threads,
+                               [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+                                 parts[chunk] = samplePart(positions, begin, end, stride);
+                               });
+  Axes axes;
+  for (const Axes& part : parts) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      axes[axis].insert(axes[axis].end(), part[axis].begin(), part[axis].end());
+    }
   }
   return axes;
 }
@@ -82,9 +100,10 @@ double roundNumber(double k, int exponent) {
 
 }  // namespace
 
-Eigen::Vector3d chooseOffset(const std::vector<double>& positions) {
-  Axes axes = sampleAxes(positions, positions.size() / 3 / kSampleSize + 1);
-  if (axes[0].empty()) axes = sampleAxes(positions, 1);  // few places, and none of them sampled
+Eigen::Vector3d chooseOffset(const std::vector<double>& positions, unsigned int threads) {
+  Axes axes = sampleAxes(positions, positions.size() / 3 / kSampleSize + 1, threads);
+  if (axes[0].empty())
+    axes = sampleAxes(positions, 1, threads);  // few places, and none of them sampled
   if (axes[0].empty()) return Eigen::Vector3d::Zero();
 
   Range range = rangeOf(axes, kLowQuantile);

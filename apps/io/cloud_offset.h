@@ -12,7 +12,8 @@ namespace storey::io {
 ///   offset = floor(q1 / u) u   on an axis where max(|q1|, |q99|) > 8 E,   else 0.
 /// Local coordinates of all but strays are below 8 E, so that a float resolves E / 2^21 or better.
 /// \param positions 3 numbers a point; points that are not finite are left out
+/// \param threads 0: all cores
 /// \return the same for any order of the points; 0 if no point is finite or E = 0
-Eigen::Vector3d chooseOffset(const std::vector<double>& positions);
+Eigen::Vector3d chooseOffset(const std::vector<double>& positions, unsigned int threads = 1);
 
 }  // namespace storey::io

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/cloud_reader.h"
 
+#include <storey/filters/detail/chunks.h>
 #include <storey/filters/detail/curve_sorting.h>
 
 #include <algorithm>
@@ -85,10 +86,15 @@ void mergeDuplicates(pcl::PointCloud<pcl::PointNormal>& cloud) {
   cloud.resize(std::min(last + 1, cloud.size()));
 }
 
-void judgeNormals(LoadedCloud& loaded) {
-  for (const pcl::PointNormal& point : *loaded.cloud) {
-    if (point.getNormalVector3fMap().isZero(0.0f)) ++loaded.zero_normals;
-  }
+void judgeNormals(LoadedCloud& loaded, unsigned int threads) {
+  const pcl::PointCloud<pcl::PointNormal>& cloud = *loaded.cloud;
+  loaded.zero_normals = storey::detail::sumByChunks(
+      cloud.size(), threads, std::vector<std::size_t>(1),
+      [&](std::size_t begin, std::size_t end, std::vector<std::size_t>& zeros) {
+        for (std::size_t i = begin; i < end; ++i) {
+          if (cloud[i].getNormalVector3fMap().isZero(0.0f)) ++zeros[0];
+        }
+      })[0];
   const auto size = static_cast<double>(loaded.cloud->size());
   const double usable = size - static_cast<double>(loaded.zero_normals);
   loaded.has_normals = usable >= kMinShareOfNormals * size;
@@ -100,7 +106,8 @@ void judgeNormals(LoadedCloud& loaded) {
 
 LoadedCloud readCloud(const std::string& path, const CloudReaderOptions& options) {
   InputFile file(path, options.max_bytes);
-  const ReadLimits& limits = options.limits;
+  ReadLimits limits = options.limits;
+  limits.threads = options.threads;
   RawCloud raw = readRawCloud(file, hasVisibility(path) ? limits.wholeFile() : limits);
   const std::size_t turned = turnToViewers(path, limits.max_memory, raw);
   raw.thin(limits.max_points);
@@ -142,14 +149,14 @@ LoadedCloud conditionPoints(RawCloud raw, unsigned int threads) {
   loaded.format = raw.format;
   loaded.declared = raw.declared;
   loaded.thinned_out = raw.declared - raw.size();
-  loaded.offset = chooseOffset(raw.positions);
+  loaded.offset = chooseOffset(raw.positions, threads);
   const DistinctPoints points = distinctPoints(raw, loaded.offset, threads);
   const bool may_have_normals = raw.has_normal_fields;
   raw = RawCloud();
   loaded.cloud = points.cloud;
   loaded.dropped_non_finite = points.dropped_non_finite;
   loaded.collapsed_duplicates = points.collapsed_duplicates;
-  if (may_have_normals) judgeNormals(loaded);
+  if (may_have_normals) judgeNormals(loaded, threads);
   return loaded;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/point_records.h"
 
+#include <storey/filters/detail/first_touch.h>
+
 #include <algorithm>
 
 #include "io/failure.h"
@@ -71,6 +73,7 @@ void RawCloud::begin(std::uint64_t num_points, const PointColumns& columns,
   declared = num_points;
   limitPoints(limits.max_points);
   take_part_ = limits.take_part;
+  threads_ = limits.threads;
   has_normal_fields = columns.has_normals;
   const std::uint64_t at_once = std::min(num_points, room() + 1);
   positions.reserve(3 * at_once);
@@ -79,6 +82,11 @@ void RawCloud::begin(std::uint64_t num_points, const PointColumns& columns,
     extras.push_back({name, {}});
     extras.back().values.reserve(at_once);
   }
+}
+
+void RawCloud::fetchMemory() {
+  storey::detail::touchReserve(threads_, positions);
+  storey::detail::touchReserve(threads_, normals);
 }
 
 void RawCloud::add(const std::vector<double>& values) {
@@ -144,6 +152,7 @@ void readBinaryRecords(InputFile& file, const std::vector<PointField>& fields,
   std::vector<PointField> wanted;
   for (const std::size_t field : columns.field) wanted.push_back(fields[field]);
   const std::uint64_t at_once = std::max<std::uint64_t>(kBlockBytes / record_bytes, 1);
+  if (raw.declared <= file.remaining() / record_bytes) raw.fetchMemory();
   for (std::uint64_t i = 0, count = 0; i < raw.declared; i += count) {
     count = std::min({at_once, raw.declared - i, raw.room()});
     raw.addRecords(file.take(count * record_bytes), record_bytes, count, wanted, big_endian);

@@ -71,6 +71,8 @@ struct RawCloud {
 
   /// Makes ready for points of these columns.
   void begin(std::uint64_t num_points, const PointColumns& columns, const ReadLimits& limits);
+  /// Fetches the memory of the points to come. Only where it is sure that they come.
+  void fetchMemory();
   /// \param values parallel to the columns
   void add(const std::vector<double>& values);
   /// Some records of fixed size. \param fields parallel to the columns
@@ -101,6 +103,7 @@ struct RawCloud {
   void cut(std::size_t num_points);
 
   std::uint64_t max_points_ = kMaxPoints;
+  unsigned int threads_ = 1;
   std::function<void(const RawCloud&)> take_part_;
   std::uint64_t key_limit_ = kAllKeys;
 };
@@ -116,13 +119,19 @@ struct ReadLimits {
   std::uint64_t max_memory = defaultMaxMemory();         ///< bytes
   std::uint64_t max_points = kMaxPoints;                 ///< kept: more are thinned to so many
   std::uint64_t bytes_per_point = kLoaderBytesPerPoint;  ///< of those that are kept
+  unsigned int threads = 1;                              ///< 0: all cores
 
   /// Instead of thinning: takes each `max_points` points on, in the order of the file, and only the
   /// last of them are left to be returned. For PLY and PCD.
   std::function<void(const RawCloud&)> take_part = {};
 
   /// For formats that are thinned only when they are read.
-  ReadLimits wholeFile() const { return {max_memory}; }
+  ReadLimits wholeFile() const {
+    ReadLimits whole;
+    whole.max_memory = max_memory;
+    whole.threads = threads;
+    return whole;
+  }
 };
 
 /// Fails if so many points cannot be.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <storey/filters/detail/chunks.h>
+#include <storey/filters/detail/first_touch.h>
 #include <storey/filters/detail/morton_curve.h>
 
 #include <algorithm>
@@ -148,6 +149,8 @@ std::vector<std::size_t> partAlongCurve(const Source& source, const MortonCurve&
     begins.push_back(next);
     for (std::vector<std::size_t>& of_chunk : places) next += std::exchange(of_chunk[part], next);
   }
+  records.reserve(begins.back());
+  touchReserve(threads, records);
   records.resize(begins.back());
   forEachChunk(size, threads, [&](std::size_t c, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
