@@ -62,7 +62,7 @@ class Pipeline {
     stage("planar",
           [&] { return measureConfidence(cloud, options_.kept_share, options_.threads); });
     observers_.cloud("02_confidence", cloud);
-    stage("classes", [&] { return classify(cloud); });
+    stage("classes", [&] { return classify(cloud, options_.threads); });
     observers_.cloud("02_classes", cloud);
     stage("directions", [&] { return findDirections(cloud, options_.threads); });
     observers_.cloud("03_directions", cloud);

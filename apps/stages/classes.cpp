@@ -9,7 +9,7 @@
 
 namespace storey::stages {
 
-std::string classify(StageCloud& cloud) {
+std::string classify(StageCloud& cloud, unsigned int threads) {
   requireNormals(cloud);
   ensureScale(cloud);
   const storey::detail::WallScale scale{cloud.state.noise, cloud.state.density};
@@ -28,7 +28,7 @@ std::string classify(StageCloud& cloud) {
   of_walls = storey::detail::withoutOutliers(*cloud.points, of_walls);
   const double least_wall =
       storey::detail::leastWallArea(*cloud.points, of_walls, cloud.state.noise);
-  const auto classes = classifyPoints(points, is_planar, scale, least_wall);
+  const auto classes = classifyPoints(points, is_planar, scale, least_wall, threads);
   std::size_t count[storey::detail::kNumPointClasses] = {};
   std::vector<int>& groups = cloud.groups(Class);
   groups.resize(classes.size());

@@ -16,5 +16,7 @@ int main(int argc, char** argv) {
        "as planar.",
        {},
        {},
-       [](storey::stages::StageCloud& cloud, unsigned int) { return classify(cloud); }});
+       [](storey::stages::StageCloud& cloud, unsigned int threads) {
+         return classify(cloud, threads);
+       }});
 }

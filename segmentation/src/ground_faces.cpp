@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/segmentation/detail/grid_cells.h>
 #include <storey/segmentation/detail/level_columns.h>
 #include <storey/segmentation/detail/union_find.h>
 #include <storey/segmentation/detail/wall_support.h>
@@ -22,7 +23,7 @@ constexpr int kPatchesInReach = 2;
 using Patch = std::pair<long, long>;
 
 Patch patchOf(const Eigen::Vector2d& p, double side) {
-  return {std::lround(std::floor(p.x() / side)), std::lround(std::floor(p.y() / side))};
+  return {cellAlong(p.x(), side), cellAlong(p.y(), side)};
 }
 
 double diagonalOf(const std::vector<Eigen::Vector3f>& walls) {
@@ -39,8 +40,11 @@ double diagonalOf(const std::vector<Eigen::Vector3f>& walls) {
 std::map<Patch, double> lowest(const std::vector<Eigen::Vector3f>& walls,
                                const LevelColumns& columns, double side) {
   std::map<Patch, std::vector<float>> heights;
+  auto entry = heights.end();  // points that follow each other are mostly of one patch
   for (const Eigen::Vector3f& p : walls) {
-    heights[patchOf(p.head<2>().cast<double>(), side)].push_back(p.z());
+    const Patch patch = patchOf(p.head<2>().cast<double>(), side);
+    if (entry == heights.end() || entry->first != patch) entry = heights.try_emplace(patch).first;
+    entry->second.push_back(p.z());
   }
   std::map<Patch, double> low;
   for (auto& [at, values] : heights) {
@@ -61,15 +65,16 @@ class Surfaces {
  public:
   Surfaces(const LevelColumns& columns, double step) : columns_(columns), sets_(0) {
     for (const LevelColumn& column : columns.columns) {
-      at_[{column.x, column.y}] = first_.size();
+      squares_.add({column.x, column.y, 0});
       first_.push_back(size_);
       size_ += column.faces.size();
     }
     sets_ = UnionFind<>(size_);
     for (std::size_t c = 0; c < columns.columns.size(); ++c) {
       for (const auto& [dx, dy] : {std::pair{1L, 0L}, {0L, 1L}, {1L, 1L}, {1L, -1L}}) {
-        const auto beside = at_.find({columns.columns[c].x + dx, columns.columns[c].y + dy});
-        if (beside != at_.end()) join(c, beside->second, step);
+        const std::size_t beside =
+            squares_.find({columns.columns[c].x + dx, columns.columns[c].y + dy, 0});
+        if (beside != GridCells::kNone) join(c, beside, step);
       }
     }
   }
@@ -93,7 +98,7 @@ class Surfaces {
   }
 
   const LevelColumns& columns_;
-  std::map<std::pair<long, long>, std::size_t> at_;
+  GridCells squares_;  // numbered as the columns
   std::vector<std::size_t> first_;
   std::size_t size_ = 0;
   UnionFind<> sets_;

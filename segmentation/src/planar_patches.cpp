@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <storey/segmentation/detail/grid_cells.h>
+#include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/planar_patches.h>
+#include <storey/segmentation/detail/point_cubes.h>
 #include <storey/segmentation/detail/wall_support.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -20,7 +22,7 @@ constexpr double kCellSide = 2.0;     // cells of the support of a wall: where w
 
 constexpr double kFirstFit = 16.0;  // points
 
-constexpr std::uint32_t kNoCell = 0xffffffff;
+constexpr std::size_t kAround = 27;  // a cell and those beside it
 
 struct Plane {
   Eigen::Vector3d center;
@@ -52,20 +54,19 @@ struct Moments {
 class PatchGrowing {
  public:
   PatchGrowing(const std::vector<OrientedPoint>& points, const std::vector<char>& counts,
-               const WallScale& scale)
-      : points_(points), side_(kCellSide * supportCellSize(scale)), reach_(kReach * scale.noise) {
-    std::vector<std::uint32_t> cell_of(points.size(), kNoCell);
-    std::vector<std::size_t> held;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (counts[i] == 0) continue;
-      const Eigen::Vector3d p = points[i].position.cast<double>();
-      cell_of[i] = static_cast<std::uint32_t>(
-          cells_.add({cellAlong(p.x(), side_), cellAlong(p.y(), side_), cellAlong(p.z(), side_)}));
-      held.resize(cells_.size(), 0);
-      ++held[cell_of[i]];
+               const WallScale& scale, unsigned int threads)
+      : points_(points),
+        side_(kCellSide * supportCellSize(scale)),
+        reach_(kReach * scale.noise),
+        threads_(threads) {
+    const PointCubes cubes = sortIntoCubes(
+        points, side_, [&](std::size_t i) { return counts[i] != 0; }, threads);
+    sortByCell(cubes.of, cubes.cells.size());
+    findNeighbors(cubes.cells);
+    for (std::size_t cell = 0; cell < cubes.cells.size(); ++cell) {
+      free_.push_back(static_cast<std::uint32_t>(first_[cell + 1] - first_[cell]));
     }
-    sortByCell(cell_of, held);
-    reached_.assign(cells_.size(), PlanarPatches::kNone);
+    reached_.assign(cubes.cells.size(), PlanarPatches::kNone);
     result_.of.assign(points.size(), PlanarPatches::kNone);
   }
 
@@ -76,14 +77,41 @@ class PatchGrowing {
 
  private:
   // The numbers of the points only: those of a cell are near each other as they come.
-  void sortByCell(const std::vector<std::uint32_t>& cell_of, const std::vector<std::size_t>& held) {
-    first_.assign(held.size() + 1, 0);
-    std::partial_sum(held.begin(), held.end(), first_.begin() + 1);
+  void sortByCell(const std::vector<std::uint32_t>& cell_of, std::size_t num_cells) {
+    first_.assign(num_cells + 1, 0);
+    for (const std::uint32_t cell : cell_of) {
+      if (cell != PointCubes::kNone) ++first_[cell + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
     number_.resize(first_.back());
     for (std::size_t i = 0; i < cell_of.size(); ++i) {
-      if (cell_of[i] != kNoCell) number_[next[cell_of[i]]++] = static_cast<std::uint32_t>(i);
+      if (cell_of[i] != PointCubes::kNone) {
+        number_[next[cell_of[i]]++] = static_cast<std::uint32_t>(i);
+      }
     }
+  }
+
+  void findNeighbors(const GridCells& cells) {
+    beside_.resize(cells.size());
+    forEachCell([&](std::size_t cell) {
+      const GridCell& at = cells[cell];
+      for (std::size_t k = 0; k < kAround; ++k) {
+        const auto step = static_cast<std::int64_t>(k);
+        const std::size_t beside =
+            cells.find({at[0] + step / 9 - 1, at[1] + step / 3 % 3 - 1, at[2] + step % 3 - 1});
+        beside_[cell][k] =
+            beside == GridCells::kNone ? PointCubes::kNone : static_cast<std::uint32_t>(beside);
+      }
+    });
+  }
+
+  // Calls `work(cell)` for all cells, from several threads.
+  template <typename Work>
+  void forEachCell(const Work& work) const {
+    const auto count = static_cast<std::ptrdiff_t>(beside_.size());
+#pragma omp parallel for num_threads(threadsFor(threads_)) schedule(dynamic, 512)
+    for (std::ptrdiff_t cell = 0; cell < count; ++cell) work(static_cast<std::size_t>(cell));
   }
 
   // Calls `visit(point, patch)` for the points of a cell that are of no patch yet.
@@ -112,14 +140,15 @@ class PatchGrowing {
 
   // Cells in which normals agree best come first.
   std::vector<std::size_t> seeds() const {
+    std::vector<double> coherence(beside_.size());
+    forEachCell([&](std::size_t cell) { coherence[cell] = meanNormal(cell).norm(); });
     std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-      if (heldIn(c) < kMinInCell) continue;
-      order.emplace_back(-meanNormal(c).norm(), c);
+    for (std::size_t c = 0; c < coherence.size(); ++c) {
+      if (heldIn(c) >= kMinInCell) order.emplace_back(-coherence[c], c);
     }
     std::sort(order.begin(), order.end());
     std::vector<std::size_t> cells;
-    for (const auto& [coherence, cell] : order) cells.push_back(cell);
+    for (const auto& [less, cell] : order) cells.push_back(cell);
     return cells;
   }
 
@@ -134,11 +163,13 @@ class PatchGrowing {
       moments.add(p);
       taken += 1.0;
     });
+    free_[cell] -= static_cast<std::uint32_t>(taken);
     return taken;
   }
 
   // The plane of the free points in a cell; false if they are too few.
   bool planeAt(std::size_t cell, Plane& plane) const {
+    if (free_[cell] < kMinInCell) return false;
     plane.normal = meanNormal(cell);
     if (!(plane.normal.norm() > 0.0)) return false;
     plane.normal.normalize();
@@ -147,7 +178,7 @@ class PatchGrowing {
       moments.add(point.position.cast<double>());
     });
     plane.center = moments.center();
-    return moments.count >= kMinInCell;
+    return true;
   }
 
   void grow(std::size_t seed) {
@@ -175,11 +206,8 @@ class PatchGrowing {
   }
 
   void queueAround(std::size_t cell, std::size_t patch, std::vector<std::size_t>& queue) {
-    const GridCell at = cells_[cell];
-    for (std::int64_t k = 0; k < 27; ++k) {
-      const std::size_t beside =
-          cells_.find({at[0] + k / 9 - 1, at[1] + k / 3 % 3 - 1, at[2] + k % 3 - 1});
-      if (beside == GridCells::kNone || reached_[beside] == patch) continue;
+    for (const std::uint32_t beside : beside_[cell]) {
+      if (beside == PointCubes::kNone || free_[beside] == 0 || reached_[beside] == patch) continue;
       reached_[beside] = patch;
       queue.push_back(beside);
     }
@@ -188,9 +216,11 @@ class PatchGrowing {
   const std::vector<OrientedPoint>& points_;
   double side_;
   double reach_;
-  GridCells cells_;
+  unsigned int threads_;
+  std::vector<std::array<std::uint32_t, kAround>> beside_;  // of each cell, itself among them
   std::vector<std::size_t> first_;     // of each cell, of the numbers that follow
   std::vector<std::uint32_t> number_;  // of the points that count, cell by cell
+  std::vector<std::uint32_t> free_;    // how many points of each cell are of no patch yet
   std::vector<std::size_t> reached_;   // the last patch that did, of each cell
   PlanarPatches result_;
 };
@@ -198,8 +228,9 @@ class PatchGrowing {
 }  // namespace
 
 PlanarPatches findPlanarPatches(const std::vector<OrientedPoint>& points,
-                                const std::vector<char>& counts, const WallScale& scale) {
-  return PatchGrowing(points, counts, scale).find();
+                                const std::vector<char>& counts, const WallScale& scale,
+                                unsigned int threads) {
+  return PatchGrowing(points, counts, scale, threads).find();
 }
 
 }  // namespace storey::detail

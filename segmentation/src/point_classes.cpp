@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <storey/filters/detail/chunks.h>
 #include <storey/segmentation/detail/grid_cells.h>
 #include <storey/segmentation/detail/level_columns.h>
 #include <storey/segmentation/detail/planar_patches.h>
 #include <storey/segmentation/detail/point_classes.h>
+#include <storey/segmentation/detail/point_cubes.h>
 #include <storey/segmentation/detail/union_find.h>
 #include <storey/segmentation/detail/wall_support.h>
 
@@ -24,28 +26,6 @@ constexpr double kMinShare = 0.5;     // of the points in the cells of a patch
 constexpr double kBeside = 0.25;      // of the side of the least wall
 constexpr double kMinGroup = 0.1;     // of the upright points of the largest
 
-constexpr std::uint32_t kNoCube = 0xffffffff;
-
-// The cubes of a grid that points lie in, and the number of each point's; `kNoCube` for those that
-// do not count.
-struct Cubes {
-  GridCells cells;
-  std::vector<std::uint32_t> of;
-};
-
-template <typename Counts>
-Cubes cubesOf(const std::vector<OrientedPoint>& points, double side, const Counts& counts) {
-  Cubes cubes;
-  cubes.of.resize(points.size(), kNoCube);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!counts(i)) continue;
-    const Eigen::Vector3d p = points[i].position.cast<double>();
-    cubes.of[i] = static_cast<std::uint32_t>(
-        cubes.cells.add({cellAlong(p.x(), side), cellAlong(p.y(), side), cellAlong(p.z(), side)}));
-  }
-  return cubes;
-}
-
 PointClass byNormal(const OrientedPoint& p) {
   const double nz = std::abs(static_cast<double>(p.normal.z()));
   return nz > kLevelNormalZ     ? PointClass::Level
@@ -54,14 +34,14 @@ PointClass byNormal(const OrientedPoint& p) {
 }
 
 void findGround(const std::vector<OrientedPoint>& points, const WallScale& scale,
-                std::vector<PointClass>& classes) {
+                unsigned int threads, std::vector<PointClass>& classes) {
   std::vector<LevelPoint> levels;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (classes[i] != PointClass::Level) continue;
     const Eigen::Vector3d p = points[i].position.cast<double>();
     levels.push_back({p.head<2>(), p.z(), points[i].normal.z() > 0.0f});
   }
-  LevelColumns columns = gatherLevelColumns(levels, scale);
+  LevelColumns columns = gatherLevelColumns(levels, scale, threads);
   if (columns.columns.empty()) return;
   std::vector<Eigen::Vector3f> walls;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -70,31 +50,33 @@ void findGround(const std::vector<OrientedPoint>& points, const WallScale& scale
   markGround(walls, scale, columns);
   GridCells squares;
   for (const LevelColumn& column : columns.columns) squares.add({column.x, column.y, 0});
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (classes[i] != PointClass::Level || points[i].normal.z() < 0.0f) continue;
-    const Eigen::Vector3d p = points[i].position.cast<double>();
-    const std::size_t column =
-        squares.find({cellAlong(p.x(), columns.side), cellAlong(p.y(), columns.side), 0});
-    if (column == GridCells::kNone) continue;
-    for (const LevelFace& face : columns.columns[column].faces) {
-      const double off = std::abs(face.z - p.z());
-      if (face.ground && off < kGroundReach * scale.noise) classes[i] = PointClass::Ground;
+  forEachChunk(points.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (classes[i] != PointClass::Level || points[i].normal.z() < 0.0f) continue;
+      const Eigen::Vector3d p = points[i].position.cast<double>();
+      const std::size_t column =
+          squares.find({cellAlong(p.x(), columns.side), cellAlong(p.y(), columns.side), 0});
+      if (column == GridCells::kNone) continue;
+      for (const LevelFace& face : columns.columns[column].faces) {
+        const double off = std::abs(face.z - p.z());
+        if (face.ground && off < kGroundReach * scale.noise) classes[i] = PointClass::Ground;
+      }
     }
-  }
+  });
 }
 
-void findLeaning(const std::vector<OrientedPoint>& points, double side,
+void findLeaning(const std::vector<OrientedPoint>& points, double side, unsigned int threads,
                  std::vector<PointClass>& classes) {
   struct Lean {
     double count = 0.0;
     double sum = 0.0;
     double squares = 0.0;
   };
-  const Cubes cubes =
-      cubesOf(points, side, [&](std::size_t i) { return classes[i] == PointClass::Wall; });
+  const PointCubes cubes = sortIntoCubes(
+      points, side, [&](std::size_t i) { return classes[i] == PointClass::Wall; }, threads);
   std::vector<Lean> leans(cubes.cells.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (cubes.of[i] == kNoCube) continue;
+    if (cubes.of[i] == PointCubes::kNone) continue;
     Lean& lean = leans[cubes.of[i]];
     const double nz = static_cast<double>(points[i].normal.z());
     lean.count += 1.0;
@@ -102,7 +84,7 @@ void findLeaning(const std::vector<OrientedPoint>& points, double side,
     lean.squares += nz * nz;
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (cubes.of[i] == kNoCube) continue;
+    if (cubes.of[i] == PointCubes::kNone) continue;
     const Lean& lean = leans[cubes.of[i]];
     if (lean.count < kMinInCube) continue;
     const double mean = lean.sum / lean.count;
@@ -127,39 +109,42 @@ UnionFind<> groupsOf(const GridCells& cubes) {
 }
 
 void findSmall(const std::vector<OrientedPoint>& points, const WallScale& scale, double least_wall,
-               std::vector<PointClass>& classes) {
+               unsigned int threads, std::vector<PointClass>& classes) {
   std::vector<char> counts(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     counts[i] = classes[i] != PointClass::Ground && classes[i] != PointClass::NonPlanar ? 1 : 0;
   }
-  const PlanarPatches patches = findPlanarPatches(points, counts, scale);
+  const PlanarPatches patches = findPlanarPatches(points, counts, scale, threads);
   const double side = kBeside * std::sqrt(least_wall);
-  const Cubes large = cubesOf(points, side, [&](std::size_t i) {
+  const auto isLarge = [&](std::size_t i) {
     const std::uint32_t patch = patches.of[i];
     return patch != PlanarPatches::kNone && patches.area[patch] > least_wall &&
            patches.share[patch] > kMinShare;
-  });
+  };
+  const PointCubes large = sortIntoCubes(points, side, isLarge, threads);
   const auto isBeside = [&](const OrientedPoint& point) {
-    const Eigen::Vector3d p = point.position.cast<double>();
-    const GridCell at = {cellAlong(p.x(), side), cellAlong(p.y(), side), cellAlong(p.z(), side)};
+    const GridCell at = cubeAt(point.position, side);
     for (std::int64_t k = 0; k < 27; ++k) {
       const GridCell beside = {at[0] + k / 9 - 1, at[1] + k / 3 % 3 - 1, at[2] + k % 3 - 1};
       if (large.cells.find(beside) != GridCells::kNone) return true;
     }
     return false;
   };
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (counts[i] == 0 || large.of[i] != kNoCube) continue;
-    if (!isBeside(points[i])) classes[i] = PointClass::Small;
-  }
+  forEachChunk(points.size(), threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (counts[i] == 0 || large.of[i] != PointCubes::kNone) continue;
+      if (!isBeside(points[i])) classes[i] = PointClass::Small;
+    }
+  });
 }
 
-void findApart(const std::vector<OrientedPoint>& points, double side,
+void findApart(const std::vector<OrientedPoint>& points, double side, unsigned int threads,
                std::vector<PointClass>& classes) {
-  const Cubes cubes = cubesOf(points, side, [&](std::size_t i) {
+  const auto isSolid = [&](std::size_t i) {
     return classes[i] != PointClass::Ground && classes[i] != PointClass::NonPlanar &&
            classes[i] != PointClass::Small;
-  });
+  };
+  const PointCubes cubes = sortIntoCubes(points, side, isSolid, threads);
   UnionFind<> groups = groupsOf(cubes.cells);
   std::vector<double> upright(cubes.cells.size(), 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -168,7 +153,7 @@ void findApart(const std::vector<OrientedPoint>& points, double side,
   if (upright.empty()) return;
   const double least = kMinGroup * *std::max_element(upright.begin(), upright.end());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (cubes.of[i] == kNoCube) continue;
+    if (cubes.of[i] == PointCubes::kNone) continue;
     if (upright[groups.find(cubes.of[i])] < least) classes[i] = PointClass::Apart;
   }
 }
@@ -177,15 +162,15 @@ void findApart(const std::vector<OrientedPoint>& points, double side,
 
 std::vector<PointClass> classifyPoints(const std::vector<OrientedPoint>& points,
                                        const std::vector<char>& planar, const WallScale& scale,
-                                       double least_wall) {
+                                       double least_wall, unsigned int threads) {
   std::vector<PointClass> classes(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     classes[i] = planar[i] != 0 ? byNormal(points[i]) : PointClass::NonPlanar;
   }
-  findGround(points, scale, classes);
-  findLeaning(points, kCubeSide * supportCellSize(scale), classes);
-  findSmall(points, scale, least_wall, classes);
-  findApart(points, kGap * std::sqrt(least_wall), classes);
+  findGround(points, scale, threads, classes);
+  findLeaning(points, kCubeSide * supportCellSize(scale), threads, classes);
+  findSmall(points, scale, least_wall, threads, classes);
+  findApart(points, kGap * std::sqrt(least_wall), threads, classes);
   return classes;
 }
 

@@ -72,5 +72,20 @@ TEST(PlanarPatches, WhatDoesNotCountIsOfNone) {
   }
 }
 
+TEST(PlanarPatches, AreTheSameForAnyNumberOfThreads) {
+  std::vector<OrientedPoint> points;
+  for (int wall = 0; wall < 6; ++wall) {  // several chunks, and rows of cells
+    addFace(points, {0, 3.0 * wall, 0}, {12, 0.4 * wall, 0}, {0, 0, 9});
+  }
+  const std::vector<char> counts(points.size(), 1);
+  const PlanarPatches expected = findPlanarPatches(points, counts, kScale, 1);
+  for (const unsigned int threads : {2u, 3u}) {
+    const PlanarPatches patches = findPlanarPatches(points, counts, kScale, threads);
+    EXPECT_EQ(patches.of, expected.of);
+    EXPECT_EQ(patches.area, expected.area);
+    EXPECT_EQ(patches.share, expected.share);
+  }
+}
+
 }  // namespace
 }  // namespace storey::detail

@@ -32,7 +32,9 @@ struct LevelColumns {
 
 /// The level faces that the points show: in each square what lies at one height, flat, and is
 /// continued by at least three of the eight squares around. Crowns of trees are not.
-LevelColumns gatherLevelColumns(const std::vector<LevelPoint>& points, const WallScale& scale);
+/// \param threads 0: all cores
+LevelColumns gatherLevelColumns(const std::vector<LevelPoint>& points, const WallScale& scale,
+                                unsigned int threads = 1);
 
 /// Marks the ground: surfaces of faces up (squares side by side without a step) that lie, with most
 /// of their squares, as low as what is lowest around them: the feet of walls and other faces within

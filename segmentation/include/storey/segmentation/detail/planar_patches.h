@@ -20,8 +20,9 @@ struct PlanarPatches {
   std::vector<double> share;      ///< of each patch, of the points in these cells
 };
 
-/// \param counts parallel to the points: those that take part
+/// \param counts parallel to the points: those that take part \param threads 0: all cores
 PlanarPatches findPlanarPatches(const std::vector<OrientedPoint>& points,
-                                const std::vector<char>& counts, const WallScale& scale);
+                                const std::vector<char>& counts, const WallScale& scale,
+                                unsigned int threads = 1);
 
 }  // namespace storey::detail

@@ -39,9 +39,9 @@ constexpr double kUprightNormalZ = 0.3;
 ///   cars, free-standing trees, neighbours cut by the edge of the cloud. What touches the building,
 ///   or is as large as a part of it, is not.
 /// \param planar parallel to the points \param least_wall area of the least wall, > 0
-/// \return parallel to the points
+/// \param threads 0: all cores \return parallel to the points
 std::vector<PointClass> classifyPoints(const std::vector<OrientedPoint>& points,
                                        const std::vector<char>& planar, const WallScale& scale,
-                                       double least_wall);
+                                       double least_wall, unsigned int threads = 1);
 
 }  // namespace storey::detail
