@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 namespace storey::detail {
@@ -42,44 +43,77 @@ struct PatchOutlooks {
   Outlook back;
 };
 
+// One bit a cell: a ray passes many empty ones, and so they stay in the cache.
+class OccupiedCells {
+ public:
+  explicit OccupiedCells(const std::vector<std::int32_t>& id_of_cell)
+      : words_(id_of_cell.size() / kBits + 1, 0) {
+    for (std::size_t cell = 0; cell < id_of_cell.size(); ++cell) {
+      if (id_of_cell[cell] >= 0) words_[cell / kBits] |= std::uint64_t{1} << cell % kBits;
+    }
+  }
+
+  bool holds(std::size_t cell) const { return (words_[cell / kBits] >> cell % kBits & 1) != 0; }
+
+ private:
+  static constexpr std::size_t kBits = 64;
+
+  std::vector<std::uint64_t> words_;
+};
+
+struct RayScene {
+  const WallVoxels& walls;
+  OccupiedCells occupied;
+};
+
 // Walks a ray from cell to cell [Amanatides and Woo 1987] to the first occupied voxel that is not
 // of the patch `own`; -1 if it leaves the grid.
-int castRay(const WallVoxels& walls, const Eigen::Vector3d& origin, const Eigen::Vector3d& d,
+int castRay(const RayScene& scene, const Eigen::Vector3d& origin, const Eigen::Vector3d& d,
             int own) {
-  const VoxelGrid3& grid = walls.grid;
-  Eigen::Array3i cell = grid.cellOf(origin);
+  const VoxelGrid3& grid = scene.walls.grid;
+  const Eigen::Array3i start = grid.cellOf(origin);
+  if (!grid.contains(start)) return -1;
   const Eigen::Array3d position = (origin - grid.low).array() / grid.side;
-  Eigen::Array3d next;   // ray parameter, in voxel sides, of the next wall of the cell
-  Eigen::Array3d delta;  // from wall to wall
+  const std::ptrdiff_t strides[3] = {1, grid.dims[0],
+                                     static_cast<std::ptrdiff_t>(grid.dims[0]) * grid.dims[1]};
+  double next[3];   // ray parameter, in voxel sides, of the next wall of the cell
+  double delta[3];  // from wall to wall
+  int left[3];      // cells to the end of the grid
+  std::ptrdiff_t step[3];
   for (int a = 0; a < 3; ++a) {
-    const double distance = d[a] > 0.0 ? cell[a] + 1.0 - position[a] : position[a] - cell[a];
+    const bool forward = d[a] > 0.0;
+    const double distance = forward ? start[a] + 1.0 - position[a] : position[a] - start[a];
     const bool moves = std::abs(d[a]) > 1e-9;
     delta[a] = moves ? 1.0 / std::abs(d[a]) : std::numeric_limits<double>::max();
     next[a] = moves ? distance * delta[a] : std::numeric_limits<double>::max();
+    left[a] = forward ? grid.dims[a] - 1 - start[a] : start[a];
+    step[a] = forward ? strides[a] : -strides[a];
   }
-  while (grid.contains(cell)) {
-    const std::int32_t id = walls.id_of_cell[grid.indexOf(cell)];
-    if (id >= 0 && walls.voxels[static_cast<std::size_t>(id)].patch != own) {
-      return id;
+  auto cell = static_cast<std::ptrdiff_t>(grid.indexOf(start));
+  while (true) {
+    const auto at = static_cast<std::size_t>(cell);
+    if (scene.occupied.holds(at)) {
+      const std::int32_t id = scene.walls.id_of_cell[at];
+      if (scene.walls.voxels[static_cast<std::size_t>(id)].patch != own) return id;
     }
-    int axis = 0;
-    next.minCoeff(&axis);
-    cell[axis] += d[axis] > 0.0 ? 1 : -1;
+    int axis = next[1] < next[0] ? 1 : 0;
+    if (next[2] < next[axis]) axis = 2;
+    if (left[axis]-- == 0) return -1;
+    cell += step[axis];
     next[axis] += delta[axis];
   }
-  return -1;
 }
 
-void addRay(const WallVoxels& walls, const Eigen::Vector3d& origin, const Eigen::Vector3d& d,
-            int own, Outlook& outlook) {
+void addRay(const RayScene& scene, const Eigen::Vector3d& origin, const Eigen::Vector3d& d, int own,
+            Outlook& outlook) {
   const bool steep = d.z() > kSteep;
   outlook.steep_rays += steep ? 1.0 : 0.0;
-  const int id = castRay(walls, origin, d, own);
+  const int id = castRay(scene, origin, d, own);
   if (id < 0) {
     (steep ? outlook.steep_escapes : outlook.level_escapes) += 1.0;
     return;
   }
-  const OccupiedVoxel& hit = walls.voxels[static_cast<std::size_t>(id)];
+  const OccupiedVoxel& hit = scene.walls.voxels[static_cast<std::size_t>(id)];
   if (hit.kind == VoxelKind::Level) {
     outlook.roofs += 1.0;
   } else if (hit.kind == VoxelKind::Wall && std::abs(hit.axis.dot(d)) > kGrazing) {
@@ -87,8 +121,9 @@ void addRay(const WallVoxels& walls, const Eigen::Vector3d& origin, const Eigen:
   }
 }
 
-PatchOutlooks lookAround(const WallVoxels& walls, int patch_id, const Vectors3d& directions) {
+PatchOutlooks lookAround(const RayScene& scene, int patch_id, const Vectors3d& directions) {
   PatchOutlooks result;
+  const WallVoxels& walls = scene.walls;
   const WallPatch& patch = walls.patches[static_cast<std::size_t>(patch_id)];
   const std::size_t step = std::max<std::size_t>(1, patch.voxels.size() / kOrigins);
   const Eigen::Vector3d offset = kStartOffset * walls.grid.side * patch.normal;
@@ -98,9 +133,9 @@ PatchOutlooks lookAround(const WallVoxels& walls, int patch_id, const Vectors3d&
     for (const Eigen::Vector3d& d : directions) {
       const double along = d.dot(patch.normal);
       if (along > kOffWall) {
-        addRay(walls, center + offset, d, patch_id, result.front);
+        addRay(scene, center + offset, d, patch_id, result.front);
       } else if (along < -kOffWall) {
-        addRay(walls, center - offset, d, patch_id, result.back);
+        addRay(scene, center - offset, d, patch_id, result.back);
       }
     }
   }
@@ -170,9 +205,10 @@ double steepWeight(const std::vector<PatchOutlooks>& outlooks, const std::vector
 std::vector<double> findOutsides(const WallVoxels& walls, int num_threads) {
   const Vectors3d directions = fibonacciHemisphere(kDirections);
   std::vector<PatchOutlooks> outlooks(walls.patches.size());
+  const RayScene scene = {walls, OccupiedCells(walls.id_of_cell)};
   TaskCrew crew(num_threads);
   crew.run(outlooks.size(), [&](std::size_t i) {
-    outlooks[i] = lookAround(walls, static_cast<int>(i), directions);
+    outlooks[i] = lookAround(scene, static_cast<int>(i), directions);
   });
   const std::vector<double> level_only = solve(walls, outlooks, 0.0, crew);
   const double steep_weight = steepWeight(outlooks, level_only);
