@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cli/command_line.h"
+#include "cli/spinning.h"
 #include "io/failure.h"
 #include "io/output_file.h"
 #include "reconstruct/intermediate.h"
@@ -19,6 +20,7 @@ namespace {
 int run(int argc, char** argv) {
   Options options;
   if (!parseOptions(argc, argv, options)) return io::Ok;
+  if (options.threads != 1) cli::limitSpinning(argv);
   std::optional<PictureProgram> pictures;  // before the work, for it may not be there
   if (options.pictures) pictures.emplace();
   std::optional<io::OutputDirectory> directory;  // made when there is something to write

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cli/spinning.h"
 #include "io/cloud_writer.h"
 #include "io/failure.h"
 #include "stages/options.h"
@@ -27,6 +28,7 @@ int run(int argc, char** argv, const StageProgram& program) {
   if (input.empty() || output.empty()) line.fail("an input and an output are needed");
   requireExtension(line, output, {".pcd", ".ply"});
   if (program.check) program.check(line);
+  if (threads != 1) cli::limitSpinning(argv);
   stages::StageCloud cloud = stages::readStageCloud(input);
   const std::string found = program.work(cloud, threads);
   stages::writeStageCloud(output, cloud);

@@ -2,6 +2,7 @@
 // The floorplans of a building from its cloud.
 #include <cstdio>
 
+#include "cli/spinning.h"
 #include "io/failure.h"
 #include "stages/floorplan_file.h"
 #include "stages/options.h"
@@ -54,6 +55,7 @@ bool parse(int argc, char** argv, Request& r) {
 int run(int argc, char** argv) {
   Request r;
   if (!parse(argc, argv, r)) return io::Ok;
+  if (r.threads != 1) cli::limitSpinning(argv);
   stages::StageCloud cloud = stages::readStageCloud(r.input);
   stages::StageFloorplans floorplans;
   floorplans.method = r.method;

@@ -2,6 +2,7 @@
 // The last stage: floorplans and a cloud to a closed model.
 #include <cstdio>
 
+#include "cli/spinning.h"
 #include "export/formats.h"
 #include "io/failure.h"
 #include "stages/floorplan_file.h"
@@ -68,6 +69,7 @@ void completeState(const stages::StageFloorplans& floorplans, stages::StageCloud
 int run(int argc, char** argv) {
   Request r;
   if (!parse(argc, argv, r)) return io::Ok;
+  if (r.threads != 1) cli::limitSpinning(argv);
   stages::StageCloud cloud = stages::readStageCloud(r.cloud);
   const stages::StageFloorplans floorplans = stages::readFloorplans(r.floorplans);
   completeState(floorplans, cloud);
