@@ -10,6 +10,8 @@ function(storey_add_module name)
   set_target_properties(storey_${name} PROPERTIES EXPORT_NAME ${name}
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_compile_features(storey_${name} PUBLIC cxx_std_17)
+  # Calls within a library are not to be replaced from outside: they may be inlined.
+  target_compile_options(storey_${name} PRIVATE -fno-semantic-interposition)
   target_include_directories(storey_${name} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

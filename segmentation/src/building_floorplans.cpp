@@ -104,12 +104,14 @@ class Labeling {
   void run() {
     arrange(planLinesOf(result_.walls, result_.hypotheses, scale_.noise));
     result_.levels = findLevels(evidence_);
+
     label();
     if (!steps_.second_pass) return;
     const std::vector<PlanLine> used = distinct(
         refitUsedLines(result_.plan, evidence_, result_.blocks, points_, scale_.noise, threads_),
         scale_.noise, box_);
     if (used.size() < 3) return;
+
     arrange(used);
     label();
   }
@@ -178,14 +180,17 @@ BuildingFloorplans extractBuildingFloorplans(const WallInput& input,
                                              const BuildingFloorplanOptions& options) {
   BuildingFloorplans result;
   if (input.sample.empty()) return result;
+
   WallScale sample_scale = input.scale;
   sample_scale.density *=
       static_cast<double>(input.sample.size()) / static_cast<double>(input.walls.size());
-  result.walls = findWallLines(input.sample, sample_scale,
+  const HeightDensity density(input.sample, sample_scale, options.threads);
+  result.walls = findWallLines(input.sample, sample_scale, density,
                                {options.min_wall_area, options.steps, options.threads});
   if (result.walls.size() < 2) return result;
+
   if (options.steps.hypotheses) {
-    result.hypotheses = hypothesiseLines(result.walls, input.sample, sample_scale,
+    result.hypotheses = hypothesiseLines(result.walls, input.sample, sample_scale, density,
                                          cornerGap(input.scale.density), options.threads);
   }
 
@@ -193,6 +198,7 @@ BuildingFloorplans extractBuildingFloorplans(const WallInput& input,
   labeling.run();
   labeling.simplify(options.limits);
   labeling.takeOutlines(options.min_area);
+
   return result;
 }
 

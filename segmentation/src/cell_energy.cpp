@@ -13,13 +13,6 @@ namespace {
 constexpr double kForbidden = 10.0;  // of the sum of all costs: more than anything else is worth
 constexpr double kUnits = 1e12;      // of the cut, that the sum of all costs makes
 
-double sumOfCosts(const CellTerms& terms) {
-  double total = 1e-300;
-  for (const double a : terms.area) total += a;
-  for (const double u : terms.unary) total += std::abs(u);
-  return total;
-}
-
 bool holds(const PlanCell& cell, const Eigen::Vector2d& p) {
   const std::size_t n = cell.corners.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -125,6 +118,13 @@ void addLevelTerms(const LineArrangement& plan, const std::vector<LevelHeights>&
 
 }  // namespace
 
+double sumOfCosts(const CellTerms& terms) {
+  double total = 1e-300;
+  for (const double a : terms.area) total += a;
+  for (const double u : terms.unary) total += std::abs(u);
+  return total;
+}
+
 void CellTerms::add(const CellTerms& other) {
   for (std::size_t i = 0; i < area.size(); ++i) {
     area[i] += other.area[i];
@@ -168,31 +168,31 @@ std::vector<CellTerms> termsOfLayers(const LineArrangement& plan, const WallEvid
   return layers;
 }
 
-LabelCut::LabelCut(const LineArrangement& plan, double total, double gap)
+LabelCut::LabelCut(const LineArrangement& plan, const CellTerms& terms, double gap)
+    : LabelCut(plan, terms, gap, sumOfCosts(terms)) {}
+
+LabelCut::LabelCut(const LineArrangement& plan, const CellTerms& terms, double gap, double total)
     : plan_(&plan),
       gap_(gap),
       total_(total),
       tied_(plan.edges.size(), 0),
-      guesses_(plan.edges.size(), 0),
-      costs_(plan.cells.size(), 0),
       flow_(plan.cells.size()) {
+  std::vector<double> unary = terms.unary;  // cost of being inside
   flow_.reserve(plan.edges.size());
-  for (const PlanEdge& edge : plan.edges) {
-    flow_.addEdge(static_cast<std::size_t>(edge.behind), static_cast<std::size_t>(edge.ahead), 0,
-                  0);
+  for (std::size_t e = 0; e < plan.edges.size(); ++e) {
+    const auto behind = static_cast<std::size_t>(plan.edges[e].behind);
+    const auto ahead = static_cast<std::size_t>(plan.edges[e].ahead);
+    const auto guess = integer(gap * (terms.area[e] - std::abs(terms.signed_area[e])));
+    unary[ahead] += terms.signed_area[e];
+    unary[behind] -= terms.signed_area[e];
+    flow_.addEdge(behind, ahead, guess, guess);
   }
   for (std::size_t c = 0; c < plan.cells.size(); ++c) {
-    if (plan.at_border[c] != 0) flow_.addTerminalCapacities(c, 0, integer(kForbidden * total));
+    // Source side = inside: pays `to_sink` there, `from_source` on the other side.
+    const auto cost = integer(plan.at_border[c] != 0 ? kForbidden * total : unary[c]);
+    flow_.addTerminalCapacities(c, std::max<MaxFlow::Capacity>(-cost, 0),
+                                std::max<MaxFlow::Capacity>(cost, 0));
   }
-}
-
-LabelCut::LabelCut(const LineArrangement& plan, const CellTerms& terms, double gap)
-    : LabelCut(plan, sumOfCosts(terms), gap) {
-  raiseTo(terms);
-}
-
-LabelCut LabelCut::ofRising(const LineArrangement& plan, const CellTerms& most, double gap) {
-  return LabelCut(plan, sumOfCosts(most), gap);
 }
 
 // Energies as integers: exact sums, the same on any machine.
@@ -200,25 +200,14 @@ MaxFlow::Capacity LabelCut::integer(double value) const {
   return static_cast<MaxFlow::Capacity>(std::llround(value * (kUnits / total_)));
 }
 
-void LabelCut::raiseTo(const CellTerms& terms) {
-  std::vector<double> unary = terms.unary;  // cost of being inside
-  for (std::size_t e = 0; e < plan_->edges.size(); ++e) {
-    const PlanEdge& edge = plan_->edges[e];
-    unary[static_cast<std::size_t>(edge.ahead)] += terms.signed_area[e];
-    unary[static_cast<std::size_t>(edge.behind)] -= terms.signed_area[e];
-    // What more layers leave unseen is no less, but for rounding.
-    const auto guess = integer(gap_ * (terms.area[e] - std::abs(terms.signed_area[e])));
-    if (guess <= guesses_[e]) continue;
-    flow_.raiseEdge(e, guess - guesses_[e], guess - guesses_[e]);
-    guesses_[e] = guess;
-  }
-  for (std::size_t c = 0; c < plan_->cells.size(); ++c) {
-    if (plan_->at_border[c] != 0) continue;
-    // Source side = inside: pays `to_sink` there, `from_source` on the other side.
-    const MaxFlow::Capacity more = integer(unary[c]) - costs_[c];
-    if (more == 0) continue;
-    flow_.addTerminalCapacities(c, more < 0 ? -more : 0, more > 0 ? more : 0);
-    costs_[c] += more;
+void LabelCut::add(const LabelCut& other, const CellTerms& own, const CellTerms& others) {
+  flow_.add(other.flow_);
+  for (std::size_t e = 0; e < tied_.size(); ++e) {
+    const double a = own.signed_area[e];
+    const double b = others.signed_area[e];
+    if (!(a * b < 0.0)) continue;  // what is seen adds up, and so does what is not
+    const auto more = integer(gap_ * (std::abs(a) + std::abs(b) - std::abs(a + b)));
+    flow_.raiseEdge(e, more, more);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 namespace storey::detail {
@@ -21,34 +22,30 @@ namespace {
 
 constexpr double kClearly = 0.01;  // of the cost of a block: more than rounding
 
-// The layers from one on upwards, one more at a time: its cut goes on from the one before.
-class GrowingRange {
- public:
-  GrowingRange(const LineArrangement& plan, const std::vector<CellTerms>& layers, std::size_t start,
-               double gap)
-      : plan_(plan), gap_(gap), sum_(layers[start]), cut_(makeCut(layers, start)) {}
+// Layers from one on upwards: a solved cut of their terms.
+struct LayerRange {
+  CellTerms terms;
+  LabelCut cut;
+  double energy;  // of the best labelling
 
-  /// Of the best labelling with this layer, the next one, as well.
-  double energyWith(const CellTerms& layer) {
-    if (!empty_) sum_.add(layer);
-    empty_ = false;
-    cut_.raiseTo(sum_);
-    return energyOf(plan_, sum_, gap_, cut_.solve());
+  LayerRange(const LineArrangement& plan, const CellTerms& layer, double gap, double total)
+      : terms(layer),
+        cut(plan, layer, gap, total),
+        energy(energyOf(plan, terms, gap, cut.solve())) {}
+
+  // One more layer, the next one, on its own.
+  void add(const LineArrangement& plan, const LayerRange& layer, double gap) {
+    cut.add(layer.cut, terms, layer.terms);
+    terms.add(layer.terms);
+    energy = energyOf(plan, terms, gap, cut.solve());
   }
-
- private:
-  LabelCut makeCut(const std::vector<CellTerms>& layers, std::size_t start) const {
-    CellTerms all = layers[start];
-    for (std::size_t l = start + 1; l < layers.size(); ++l) all.add(layers[l]);
-    return LabelCut::ofRising(plan_, all, gap_);
-  }
-
-  const LineArrangement& plan_;
-  double gap_;
-  CellTerms sum_;  // with the first layer from the beginning
-  LabelCut cut_;
-  bool empty_ = true;
 };
+
+double sumOfCosts(const std::vector<CellTerms>& layers) {
+  return std::accumulate(layers.begin(), layers.end(), 0.0, [](double sum, const CellTerms& layer) {
+    return sum + sumOfCosts(layer);
+  });
+}
 
 // The starts of the blocks of the partition with the least sum of energies, each with `cost` added,
 // by dynamic programming, and the end of the last. Two ranges never have more energy than both as
@@ -61,25 +58,28 @@ std::vector<std::size_t> bestPartition(const LineArrangement& plan,
   std::vector<double> best(layers.size() + 1, std::numeric_limits<double>::infinity());
   std::vector<std::size_t> from(layers.size() + 1, 0);
   best[0] = 0.0;
-  std::vector<std::unique_ptr<GrowingRange>> ranges(layers.size());
-  std::vector<double> energies(layers.size());
+  const double total = sumOfCosts(layers);
+  std::vector<std::unique_ptr<LayerRange>> ranges(layers.size());
+  const auto energyFrom = [&](std::size_t start) { return best[start] + ranges[start]->energy; };
   std::vector<std::size_t> open;  // starts, ascending
   TaskCrew crew(threadsFor(threads));
+  const auto ahead = static_cast<std::size_t>(crew.size());
   for (std::size_t end = 1; end <= layers.size(); ++end) {
-    open.push_back(end - 1);
-    crew.run(open.size(), [&](std::size_t i) {
-      const std::size_t start = open[open.size() - 1 - i];
-      if (start + 1 == end)
-        ranges[start] = std::make_unique<GrowingRange>(plan, layers, start, gap);
-      energies[start] = best[start] + ranges[start]->energyWith(layers[end - 1]);
-    });
+    const std::size_t layer = end - 1;
+    if (layer % ahead == 0) {
+      crew.run(std::min(ahead, layers.size() - layer), [&](std::size_t i) {
+        ranges[layer + i] = std::make_unique<LayerRange>(plan, layers[layer + i], gap, total);
+      });
+    }
+    crew.run(open.size(), [&](std::size_t i) { ranges[open[i]]->add(plan, *ranges[layer], gap); });
+    open.push_back(layer);
     for (const std::size_t start : open) {
-      if (energies[start] + cost >= best[end]) continue;
-      best[end] = energies[start] + cost;
+      if (energyFrom(start) + cost >= best[end]) continue;
+      best[end] = energyFrom(start) + cost;
       from[end] = start;
     }
     const auto closed = std::remove_if(open.begin(), open.end(), [&](std::size_t start) {
-      if (energies[start] <= best[end] + kClearly * cost) return false;
+      if (energyFrom(start) <= best[end] + kClearly * cost) return false;
       ranges[start].reset();
       return true;
     });

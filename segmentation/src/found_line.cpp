@@ -2,13 +2,15 @@
 #include <storey/segmentation/detail/found_line.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
 namespace storey::detail {
 namespace {
 
-constexpr double kCandidateGate = 12.0;            // noise deviations
+constexpr double kCandidateGate = 12.0;  // noise deviations
+const double kVoteAgreement = std::cos(kVoteAngle);
 constexpr double kSameAngle = 0.1 * M_PI / 180.0;  // rad, least gap between directions
 constexpr double kAngleDeviations = 4.0;
 constexpr double kMinDirectionShare = 0.04;  // of the supported area
@@ -72,28 +74,37 @@ void addPerpendiculars(std::vector<double>& angles) {
 PointPool::PointPool(const std::vector<WallPoint>& all, const std::vector<char>& free)
     : points(all), numbers(numbersOf(free)), blocks(all, numbers) {}
 
+void PointPool::shrink(const std::vector<char>& free) {
+  const auto is_taken = [&](int i) { return free[static_cast<std::size_t>(i)] == 0; };
+  numbers.erase(std::remove_if(numbers.begin(), numbers.end(), is_taken), numbers.end());
+  blocks = PointBlocks(points, numbers);
+}
+
+bool isCandidate(const WallLine& guess, const WallPoint& p, double noise) {
+  const bool near = std::abs(guess.across(p.position)) < kCandidateGate * noise;
+  const bool agrees = guess.normal.dot(p.normal) >= kVoteAgreement;
+  return static_cast<unsigned int>(near) & static_cast<unsigned int>(agrees);
+}
+
 std::vector<int> candidatesFor(const PointPool& pool, const std::vector<char>& free,
                                const WallLine& line, double noise, const LineStretch& stretch) {
-  const double gate = kCandidateGate * noise;
-  std::vector<int> candidates;
-  const double agreement = std::cos(kVoteAngle);
   const PointBlocks& blocks = pool.blocks;
-  for (std::size_t block = 0; block < blocks.size(); ++block) {
-    if (!blocks.mayBeNear(block, line.normal, line.offset, gate) ||
-        !blocks.mayBeBetween(block, line.tangent(), stretch.s_min, stretch.s_max)) {
-      continue;
-    }
+  std::vector<int> candidates;
+  std::array<int, PointBlocks::kLength> held;
+  const PlanStrip strip{line.normal, line.offset, kCandidateGate * noise, stretch.s_min,
+                        stretch.s_max};
+  blocks.forEachIn(strip, [&](std::size_t block) {
+    auto end = held.begin();
     for (std::size_t k = blocks.begin(block); k < blocks.end(block); ++k) {
       const int i = pool.numbers[k];
       const WallPoint& p = pool.points[static_cast<std::size_t>(i)];
-      if (free[static_cast<std::size_t>(i)] == 0 || std::abs(line.across(p.position)) >= gate ||
-          line.normal.dot(p.normal) < agreement) {
-        continue;
-      }
       const double s = line.along(p.position);
-      if (s >= stretch.s_min && s <= stretch.s_max) candidates.push_back(i);
+      *end = i;  // overwritten by the next, or not: a branch would be guessed wrongly
+      end += free[static_cast<std::size_t>(i)] & static_cast<int>(isCandidate(line, p, noise)) &
+             static_cast<int>(s >= stretch.s_min) & static_cast<int>(s <= stretch.s_max);
     }
-  }
+    candidates.insert(candidates.end(), held.begin(), end);
+  });
   return candidates;
 }
 

@@ -18,20 +18,28 @@ LinePoints::LinePoints(const std::vector<WallPoint>& points, const std::vector<i
   moveTo(line);
 }
 
-LinePoints LinePoints::within(double gate) const {
-  LinePoints near;
-  near.resize(size());
+std::vector<std::size_t> LinePoints::within(double gate) const {
+  std::vector<std::size_t> near(size());
   std::size_t kept = 0;
   for (std::size_t k = 0; k < size(); ++k) {
-    near.position[kept] = position[k];
-    near.s[kept] = s[k];
-    near.d[kept] = d[k];
-    near.z[kept] = z[k];
-    near.number[kept] = number[k];
+    near[kept] = k;
     kept += std::abs(d[k]) < gate ? 1 : 0;  // overwritten by the next, or not
   }
   near.resize(kept);
   return near;
+}
+
+LinePoints LinePoints::only(const std::vector<std::size_t>& kept) const {
+  LinePoints some;
+  some.resize(kept.size());
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    some.position[k] = position[kept[k]];
+    some.s[k] = s[kept[k]];
+    some.d[k] = d[kept[k]];
+    some.z[k] = z[kept[k]];
+    some.number[k] = number[kept[k]];
+  }
+  return some;
 }
 
 void LinePoints::moveTo(const WallLine& line) {
@@ -47,6 +55,17 @@ std::pair<double, double> rangeOf(const std::vector<double>& values) {
   for (const double value : values) {
     low = std::min(low, value);
     high = std::max(high, value);
+  }
+  return {low, high};
+}
+
+std::pair<double, double> rangeOf(const std::vector<double>& values,
+                                  const std::vector<std::size_t>& some) {
+  double low = values[some.front()];
+  double high = low;
+  for (const std::size_t i : some) {
+    low = std::min(low, values[i]);
+    high = std::max(high, values[i]);
   }
   return {low, high};
 }

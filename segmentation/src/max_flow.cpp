@@ -54,6 +54,17 @@ void MaxFlow::addArc(std::size_t tail, std::size_t head, Capacity capacity) {
   nodes_[tail].first = static_cast<Index>(arcs_.size() - 1);
 }
 
+void MaxFlow::add(const MaxFlow& other) {
+  assert(nodes_.size() == other.nodes_.size() && arcs_.size() == other.arcs_.size());
+  flow_ += other.flow_;
+  for (std::size_t a = 0; a < arcs_.size(); ++a) arcs_[a].residual += other.arcs_[a].residual;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const Capacity more = other.nodes_[n].terminal;
+    addTerminalCapacities(n, std::max<Capacity>(more, 0), std::max<Capacity>(-more, 0));
+    if (nodes_[n].tree != Tree::kFree) activate(static_cast<Index>(n));
+  }
+}
+
 MaxFlow::Capacity MaxFlow::solve() {
   ++time_;
   for (const Index node : changed_) plant(node);

@@ -3,6 +3,7 @@
 #include <storey/segmentation/detail/union_find.h>
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace storey::detail {
@@ -23,6 +24,21 @@ struct Joint {
   std::size_t floating = 0;  // connected parts of the upper that rest on nothing
 };
 
+// Calls `visit(cell)` for the cells whose labels differ. Most are the same: it is blocks of them
+// that are compared.
+template <typename Visit>
+void forEachDifference(const std::vector<char>& one, const std::vector<char>& other,
+                       const Visit& visit) {
+  constexpr std::size_t kBlock = 64;
+  for (std::size_t from = 0; from < one.size(); from += kBlock) {
+    const std::size_t to = std::min(one.size(), from + kBlock);
+    if (std::memcmp(one.data() + from, other.data() + from, to - from) == 0) continue;
+    for (std::size_t c = from; c < to; ++c) {
+      if (one[c] != other[c]) visit(c);
+    }
+  }
+}
+
 // Floods the cells that change. A part of the upper block floats if all of it does and no cell
 // beside it is inside in both. \param lower, upper null: there is no block
 Joint jointBetween(const CellNeighbors& neighbors, const std::vector<char>* lower,
@@ -30,14 +46,14 @@ Joint jointBetween(const CellNeighbors& neighbors, const std::vector<char>* lowe
   const std::vector<char> none(neighbors.size(), 0);
   const std::vector<char>& below = lower != nullptr ? *lower : none;
   const std::vector<char>& above = upper != nullptr ? *upper : none;
-  std::vector<signed char> change(neighbors.size());
-  for (std::size_t c = 0; c < change.size(); ++c) {
+  std::vector<signed char> change(neighbors.size(), 0);
+  forEachDifference(below, above, [&](std::size_t c) {
     change[c] = static_cast<signed char>(below[c] - above[c]);
-  }
+  });
   Joint joint;
   std::vector<std::size_t> front;
-  for (std::size_t c = 0; c < change.size(); ++c) {
-    if (change[c] == 0) continue;
+  forEachDifference(below, above, [&](std::size_t c) {
+    if (change[c] == 0) return;  // flooded
     const signed char way = std::exchange(change[c], {});
     bool rests = way > 0;
     front = {c};
@@ -53,7 +69,7 @@ Joint jointBetween(const CellNeighbors& neighbors, const std::vector<char>* lowe
     }
     ++joint.caps;
     if (!rests) ++joint.floating;
-  }
+  });
   return joint;
 }
 
@@ -62,17 +78,16 @@ Joint jointBetween(const CellNeighbors& neighbors, const std::vector<char>* lowe
 std::vector<OutlineRun> runsOf(const LineArrangement& plan, const CellTerms& terms,
                                const std::vector<char>& inside) {
   std::vector<OutlineRun> runs;
-  int side = 0;  // of the edge before
+  int side = 0;
   for (std::size_t e = 0; e < plan.edges.size(); ++e) {
     const PlanEdge& edge = plan.edges[e];
-    const int own = sideOf(edge, inside);
-    const bool joined = e > 0 && side == own && plan.edges[e - 1].line == edge.line &&
+    const int before = std::exchange(side, sideOf(edge, inside));
+    if (side == 0) continue;
+    const bool joined = side == before && plan.edges[e - 1].line == edge.line &&
                         edge.s_min - plan.edges[e - 1].s_max < kTouching * edge.length();
-    side = own;
-    if (own == 0) continue;
-    if (!joined) runs.push_back({e, e, own, 0.0});
+    if (!joined) runs.push_back({e, e, side, 0.0});
     runs.back().last = e;
-    runs.back().seen += std::max(0.0, own * terms.signed_area[e]);
+    runs.back().seen += std::max(0.0, side * terms.signed_area[e]);
   }
   return runs;
 }

@@ -99,11 +99,14 @@ class Pruning {
     Stack changed = stack();
     for (const auto& [b, edges] : trial) changed[b] = &outlines_.without(edges, b);
     std::vector<double> joints = joints_;
+    for (const auto& [block, edges] : trial) joints[block] = joints[block + 1] = 0.0;
+    const double most = objective_ - kLeastGain * cost_;
+    if (objectiveOf(changed, joints) >= most) return false;  // whatever the joints cost
     for (const auto& [block, edges] : trial) {
       for (const std::size_t b : {block, block + 1}) joints[b] = jointOf(changed, b);
     }
     const double objective = objectiveOf(changed, joints);
-    if (objective >= objective_ - kLeastGain * cost_) return false;
+    if (objective >= most) return false;
     objective_ = objective;
     joints_ = std::move(joints);
     for (const auto& [b, edges] : trial) outlines_.take(edges, b);

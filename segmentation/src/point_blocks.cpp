@@ -5,6 +5,11 @@
 #include <cmath>
 
 namespace storey::detail {
+namespace {
+
+constexpr double kRounding = 1e-12;  // of the distance from the origin
+
+}  // namespace
 
 PointBlocks::PointBlocks(const std::vector<WallPoint>& points) : num_points_(points.size()) {
   enclose([&](std::size_t i) { return points[i].position; });
@@ -17,7 +22,6 @@ PointBlocks::PointBlocks(const std::vector<WallPoint>& points, const std::vector
 
 template <typename PositionOf>
 void PointBlocks::enclose(const PositionOf& positionOf) {
-  constexpr double kRounding = 1e-12;  // of the distance from the origin
   circles_.reserve(num_points_ / kLength + 1);
   for (std::size_t from = 0; from < num_points_; from += kLength) {
     const std::size_t to = std::min(num_points_, from + kLength);
@@ -33,6 +37,21 @@ void PointBlocks::enclose(const PositionOf& positionOf) {
       squared = std::max(squared, (positionOf(i) - center).squaredNorm());
     }
     circles_.push_back({center, std::sqrt(squared) + kRounding * center.norm()});
+  }
+  encloseGroups();
+}
+
+void PointBlocks::encloseGroups() {
+  for (std::size_t from = 0; from < size(); from += kGroup) {
+    const std::size_t to = std::min(size(), from + kGroup);
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (std::size_t b = from; b < to; ++b) sum += circles_[b].center;
+    const Eigen::Vector2d center = sum / static_cast<double>(to - from);
+    double radius = 0.0;
+    for (std::size_t b = from; b < to; ++b) {
+      radius = std::max(radius, (circles_[b].center - center).norm() + circles_[b].radius);
+    }
+    groups_.push_back({center, radius + kRounding * center.norm()});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -22,13 +23,15 @@ constexpr double kMostRadius = 1.0 / 8;  // of the height of all
 class SortedPoints {
  public:
   explicit SortedPoints(const std::vector<WallPoint>& points) {
-    positions_.reserve(points.size());
-    heights_.reserve(points.size());
-    normals_.reserve(points.size());
+    for (std::vector<double>* list : {&x_, &y_, &heights_, &normal_x_, &normal_y_}) {
+      list->reserve(points.size());
+    }
     for (const auto& [z, i] : orderOf(points)) {
-      positions_.push_back(points[i].position);
+      x_.push_back(points[i].position.x());
+      y_.push_back(points[i].position.y());
       heights_.push_back(z);
-      normals_.push_back(points[i].normal);
+      normal_x_.push_back(points[i].normal.x());
+      normal_y_.push_back(points[i].normal.y());
     }
   }
 
@@ -58,16 +61,21 @@ class SortedPoints {
     const double z = heights_[center];
     const auto from = std::lower_bound(heights_.begin(), heights_.end(), z - radius);
     const auto to = std::upper_bound(from, heights_.end(), z + radius);
-    double count = -1.0;
-    for (auto i = static_cast<std::size_t>(from - heights_.begin());
-         i < static_cast<std::size_t>(to - heights_.begin()); ++i) {
-      const double dz = heights_[i] - z;
-      const double distance = (positions_[i] - positions_[center]).squaredNorm() + dz * dz;
-      if (distance < radius * radius && normals_[i].dot(normals_[center]) > kMinAgreement) {
-        count += 1.0;
-      }
+    const double x = x_[center];
+    const double y = y_[center];
+    const double nx = normal_x_[center];
+    const double ny = normal_y_[center];
+    std::int64_t count = -1;
+    for (auto i = from - heights_.begin(); i < to - heights_.begin(); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const double dx = x_[k] - x;
+      const double dy = y_[k] - y;
+      const double dz = heights_[k] - z;
+      const double distance = dx * dx + dy * dy + dz * dz;
+      const double agreement = normal_x_[k] * nx + normal_y_[k] * ny;
+      count += distance < radius * radius && agreement > kMinAgreement ? 1 : 0;
     }
-    return count;
+    return static_cast<double>(count);
   }
 
   using Place = std::pair<double, std::size_t>;
@@ -98,9 +106,9 @@ class SortedPoints {
     return order;
   }
 
-  std::vector<Eigen::Vector2d> positions_;
-  std::vector<double> heights_;
-  std::vector<Eigen::Vector2d> normals_;
+  // A list for each coordinate: several of their numbers are taken at once.
+  std::vector<double> x_, y_, heights_;
+  std::vector<double> normal_x_, normal_y_;
 };
 
 }  // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/point_blocks.h>
-#include <storey/segmentation/detail/wall_density.h>
 #include <storey/segmentation/detail/wall_ends.h>
 
 #include <algorithm>
@@ -53,8 +52,8 @@ std::vector<std::pair<std::size_t, std::size_t>> runsOf(const Places& places, do
 class EndFinder {
  public:
   EndFinder(const std::vector<WallLine>& walls, const std::vector<WallPoint>& points,
-            const WallScale& scale, unsigned int threads)
-      : walls_(walls), scale_(scale), threads_(threads), density_(points, scale, threads) {
+            const WallScale& scale, const HeightDensity& density, unsigned int threads)
+      : walls_(walls), scale_(scale), threads_(threads), density_(density) {
     double high = -std::numeric_limits<double>::infinity();
     low_ = -high;
     for (const WallPoint& p : points) {
@@ -215,7 +214,7 @@ class EndFinder {
   const std::vector<WallLine>& walls_;
   const WallScale& scale_;
   unsigned int threads_;
-  HeightDensity density_;
+  const HeightDensity& density_;
   double low_ = 0.0;
   double band_ = 1.0;
   std::size_t num_bands_ = 0;
@@ -226,9 +225,9 @@ class EndFinder {
 
 std::vector<WallEnd> findWallEnds(const std::vector<WallLine>& walls,
                                   const std::vector<WallPoint>& points, const WallScale& scale,
-                                  unsigned int threads) {
+                                  const HeightDensity& density, unsigned int threads) {
   if (walls.empty() || points.empty()) return {};
-  return EndFinder(walls, points, scale, threads).find();
+  return EndFinder(walls, points, scale, density, threads).find();
 }
 
 }  // namespace storey::detail

@@ -159,9 +159,11 @@ class Hypotheses {
 
 std::vector<PlanLine> hypothesiseLines(const std::vector<WallLine>& walls,
                                        const std::vector<WallPoint>& points, const WallScale& scale,
-                                       double corner_gap, unsigned int threads) {
+                                       const HeightDensity& density, double corner_gap,
+                                       unsigned int threads) {
   if (walls.empty() || points.empty()) return {};
-  return Hypotheses(walls, findWallEnds(walls, points, scale, threads), scale.noise, corner_gap)
+  return Hypotheses(walls, findWallEnds(walls, points, scale, density, threads), scale.noise,
+                    corner_gap)
       .make();
 }
 

@@ -4,7 +4,6 @@
 #include <storey/filters/detail/threads.h>
 #include <storey/segmentation/detail/found_line.h>
 #include <storey/segmentation/detail/short_walls.h>
-#include <storey/segmentation/detail/wall_density.h>
 #include <storey/segmentation/detail/wall_lines.h>
 #include <storey/segmentation/detail/wall_support.h>
 #include <storey/segmentation/detail/wall_votes.h>
@@ -28,72 +27,146 @@ constexpr double kThinnest = 1.0 / 16.0;  // thinner heights show clutter alone
 constexpr double kThinMiddle = 0.7;       // of an octave of densities
 constexpr double kThinFacade = 0.25;      // of the density of all, at most
 constexpr int kMaxFailures = 40;          // peaks without support in a row
+constexpr double kMostTaken = 0.25;       // of the pool of points, by the lines found
 constexpr int kAhead = 4;                 // peaks tried at once, most, for each thread
 constexpr int kMaxLines = 400;            // cells grow with their square
 constexpr double kBeside = 0.25;          // points of the stronger line, of the weaker's support
 constexpr double kExplained = 2.5;        // noise deviations across a line
 constexpr double kLeftover = 0.8;         // of the support; a wall 2 deviations beside has 0.69
 
-// The strongest windows, each without those before it, which are struck out.
-std::vector<VoteTable::Peak> strikePeaks(VoteTable& table, double least_votes, std::size_t most) {
-  std::vector<VoteTable::Peak> peaks;
-  while (peaks.size() < most) {
-    const VoteTable::Peak peak = table.strongest();
-    if (peak.votes < least_votes) break;
-    peaks.push_back(peak);
-    table.strikeOut(peak);
+// The line found where a peak is; without support if there is none.
+struct PeakFit {
+  WallLine guess;
+  FoundLine found;
+};
+
+// Fits at peaks that were tried ahead of their turn, and that nothing has changed since.
+class FitsAhead {
+ public:
+  // \return whether there is one; it goes to `fit`
+  bool take(const WallLine& guess, PeakFit& fit) {
+    const auto known = std::find_if(fits_.begin(), fits_.end(), [&](const PeakFit& other) {
+      return other.guess.offset == guess.offset && other.guess.normal == guess.normal;
+    });
+    if (known == fits_.end()) return false;
+    fit = std::move(*known);
+    fits_.erase(known);
+    return true;
   }
-  return peaks;
-}
 
-// The line at each of the peaks; without support where none is found.
-std::vector<FoundLine> fitPeaks(const PointPool& pool, const WallScale& scale,
-                                const SupportOptions& options, const std::vector<char>& free,
-                                const VoteTable& table, const std::vector<VoteTable::Peak>& peaks,
-                                TaskCrew& crew) {
-  std::vector<FoundLine> lines(peaks.size());
-  crew.run(peaks.size(), [&](std::size_t i) {
-    auto& [line, support] = lines[i];
-    line = table.lineAt(peaks[i]);
-    support = fitToSupport(pool.points, candidatesFor(pool, free, line, scale.noise), scale,
-                           options, line);
-    if (line.support_area < options.min_area) support.clear();
-  });
-  return lines;
-}
+  void keep(PeakFit fit) { fits_.push_back(std::move(fit)); }
 
-// One greedy pass: strongest line, its support, take its points away, again. A peak without a line
-// changes nothing for the next one: the longer none was found, the more peaks are tried at once.
+  // Forgets those to which some of the points taken away may have belonged.
+  void forget(const std::vector<WallPoint>& points, const std::vector<int>& taken, double noise) {
+    const auto changed = [&](const PeakFit& fit) {
+      return std::any_of(taken.begin(), taken.end(), [&](int i) {
+        return isCandidate(fit.guess, points[static_cast<std::size_t>(i)], noise);
+      });
+    };
+    fits_.erase(std::remove_if(fits_.begin(), fits_.end(), changed), fits_.end());
+  }
+
+ private:
+  std::vector<PeakFit> fits_;
+};
+
+// One greedy pass: strongest line, its support, take its points away, again.
+class GreedyPass {
+ public:
+  GreedyPass(const std::vector<WallPoint>& points, const WallScale& scale,
+             const WallLineOptions& options, TaskCrew& crew, bool free_direction,
+             std::vector<double> angles, std::vector<char>& free)
+      : points_(points),
+        scale_(scale),
+        crew_(crew),
+        free_(free),
+        table_(points, std::move(angles), scale.noise * (free_direction ? kFreeBin : kLockedBin),
+               free_direction ? kFreeWindow : kLockedWindow, crew),
+        pool_(points, free),
+        least_votes_(std::max(10.0, kMinVotes * options.min_area * scale.density)),
+        most_(crew.size() > 1 ? kAhead * crew.size() : 1) {
+    options_.fit_direction = free_direction;
+    options_.min_area = options.min_area;
+    options_.steps = options.steps;
+    table_.vote(pool_.numbers, 1);
+  }
+
+  void run(std::vector<FoundLine>& lines) {
+    int failures = 0;
+    while (failures < kMaxFailures && static_cast<int>(lines.size()) < kMaxLines) {
+      std::vector<PeakFit> fits = fitStrongest(failures);
+      if (fits.empty()) return;
+      const auto first = std::find_if(
+          fits.begin(), fits.end(), [](const PeakFit& fit) { return !fit.found.support.empty(); });
+      failures += static_cast<int>(first - fits.begin());
+      if (first == fits.end()) continue;
+      failures = 0;
+      table_.takeBack(static_cast<std::size_t>(fits.end() - first));
+      for (auto fit = first + 1; fit != fits.end(); ++fit) ahead_.keep(std::move(*fit));
+      takeAway(first->found.support);
+      lines.push_back(std::move(first->found));
+    }
+  }
+
+ private:
+  // At the strongest peak, and if nothing is known of that at the next ones too, each without those
+  // before it. A peak without a line changes nothing for the next one: the longer none was found,
+  // the more are tried at once. A line elsewhere rarely does, so that there is one for each thread.
+  std::vector<PeakFit> fitStrongest(int failures) {
+    std::vector<PeakFit> fits;
+    const int count = std::min({std::max(crew_.size(), failures), most_, kMaxFailures - failures});
+    std::vector<std::size_t> missing;
+    while (static_cast<int>(fits.size()) < count) {
+      const VoteTable::Peak peak = table_.strongest();
+      if (peak.votes < least_votes_) break;
+      table_.strikeOut(peak);
+      const WallLine guess = table_.lineAt(peak);
+      PeakFit fit{guess, {}};
+      if (!ahead_.take(guess, fit)) missing.push_back(fits.size());
+      fits.push_back(std::move(fit));
+      if (missing.empty()) break;
+    }
+    crew_.run(missing.size(), [&](std::size_t i) { fitAt(fits[missing[i]]); });
+    return fits;
+  }
+
+  void fitAt(PeakFit& fit) const {
+    auto& [line, support] = fit.found;
+    line = fit.guess;
+    support = fitToSupport(points_, candidatesFor(pool_, free_, line, scale_.noise), scale_,
+                           options_, line);
+    if (line.support_area < options_.min_area) support.clear();
+  }
+
+  void takeAway(const std::vector<int>& support) {
+    for (const int i : support) free_[static_cast<std::size_t>(i)] = 0;
+    table_.vote(support, -1);
+    ahead_.forget(points_, support, scale_.noise);
+    taken_ += support.size();
+    if (static_cast<double>(taken_) > kMostTaken * static_cast<double>(pool_.numbers.size())) {
+      pool_.shrink(free_);
+      taken_ = 0;
+    }
+  }
+
+  const std::vector<WallPoint>& points_;
+  const WallScale& scale_;
+  SupportOptions options_;
+  TaskCrew& crew_;
+  std::vector<char>& free_;
+  VoteTable table_;
+  PointPool pool_;
+  FitsAhead ahead_;
+  double least_votes_;
+  int most_;               // peaks at once
+  std::size_t taken_ = 0;  // points of the pool
+};
+
 void extractGreedily(const std::vector<WallPoint>& points, const WallScale& scale,
                      const WallLineOptions& options, TaskCrew& crew, bool free_direction,
                      std::vector<double> angles, std::vector<char>& free,
                      std::vector<FoundLine>& lines) {
-  VoteTable table(points, std::move(angles), scale.noise * (free_direction ? kFreeBin : kLockedBin),
-                  free_direction ? kFreeWindow : kLockedWindow, crew);
-  const PointPool pool(points, free);
-  table.vote(pool.numbers, 1);
-  SupportOptions support_options;
-  support_options.fit_direction = free_direction;
-  support_options.min_area = options.min_area;
-  support_options.steps = options.steps;
-  const double least_votes = std::max(10.0, kMinVotes * options.min_area * scale.density);
-  const int most = crew.size() > 1 ? kAhead * crew.size() : 1;
-  for (int failures = 0; failures < kMaxFailures && static_cast<int>(lines.size()) < kMaxLines;) {
-    const int ahead = std::min({std::max(1, failures), most, kMaxFailures - failures});
-    const std::vector<VoteTable::Peak> peaks =
-        strikePeaks(table, least_votes, static_cast<std::size_t>(ahead));
-    if (peaks.empty()) return;
-    std::vector<FoundLine> found = fitPeaks(pool, scale, support_options, free, table, peaks, crew);
-    const auto first = std::find_if(found.begin(), found.end(),
-                                    [](const FoundLine& line) { return !line.support.empty(); });
-    failures += static_cast<int>(first - found.begin());
-    if (first == found.end()) continue;
-    failures = 0;
-    table.takeBack(static_cast<std::size_t>(found.end() - first));
-    for (const int i : first->support) free[static_cast<std::size_t>(i)] = 0;
-    table.vote(first->support, -1);
-    lines.push_back(std::move(*first));
-  }
+  GreedyPass(points, scale, options, crew, free_direction, std::move(angles), free).run(lines);
 }
 
 // Walls at heights with much fewer points than the rest, octave by octave of their density.
@@ -203,7 +276,7 @@ std::vector<double> findDirections(const std::vector<WallPoint>& points, const W
 }  // namespace
 
 std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const WallScale& scale,
-                                    const WallLineOptions& options) {
+                                    const HeightDensity& density, const WallLineOptions& options) {
   std::vector<double> all_around(kFreeAngles);
   for (int a = 0; a < kFreeAngles; ++a)
     all_around[static_cast<std::size_t>(a)] = 2.0 * M_PI * a / kFreeAngles;
@@ -218,8 +291,8 @@ std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const 
   if (!oriented.empty()) {
     extractGreedily(points, scale, options, crew, false, oriented, free, lines);
   }
+
   extractGreedily(points, scale, options, crew, true, all_around, free, lines);
-  const HeightDensity density(points, scale, options.threads);
   if (options.steps.thin_heights)
     extractThinParts(points, scale, density, options, crew, oriented, all_around, free, lines);
   if (options.steps.thin_facades && !oriented.empty())

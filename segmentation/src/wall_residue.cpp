@@ -11,13 +11,13 @@
 namespace storey::detail {
 namespace {
 
-constexpr double kStrip = 10.0;        // length along a wall, noise deviations
+constexpr double kHalf = 5.0;          // of a strip along a wall, noise deviations
 constexpr double kWindow = 4.0;        // across a wall, noise deviations: 95 % of its points
 constexpr double kBeside = 10.0;       // noise deviations from the middle of the window
 constexpr double kFalseAlarms = 0.01;  // expected in all
 constexpr double kLeastBeside = 0.5;   // points: of none beside a window little is known
 
-// A point of a strip: the number of the strip, and the place across.
+// A point: the number of the half of a strip that it is in, and the place across.
 using Placed = std::pair<int, double>;
 
 // ln of Chernoff's bound of the probability that so many points fall where `expected` do, negative.
@@ -72,34 +72,52 @@ class Search {
     places.erase(std::remove_if(places.begin(), places.end(), unclear), places.end());
   }
 
-  // Strips overlap by half, so that every wall as long as a strip and a half fills one.
+  // Strips overlap by half, so that every wall as long as a strip and a half fills one: strip k has
+  // the points of halves k and k + 1.
   Findings searchDirection(double angle) const {
     Findings found;
     const Eigen::Vector2d normal(std::cos(angle), std::sin(angle));
+    const std::vector<Placed> placed = placedAlong(normal);
+    const auto search = [&](int strip, const std::vector<double>& across) {
+      DensePlace place = clearestOf(across);
+      place.normal = normal;
+      place.s_min = kHalf * noise_ * strip;
+      place.s_max = place.s_min + 2.0 * kHalf * noise_;
+      if (place.clarity > 0.0) found.places.push_back(place);
+      found.windows += across.size();
+    };
+    std::vector<double> own, next, both;
+    const auto take = [&](std::size_t from, int half, std::vector<double>& across) {
+      across.clear();
+      for (; from < placed.size() && placed[from].first == half; ++from) {
+        across.push_back(placed[from].second);
+      }
+    };
+    for (std::size_t from = 0; from < placed.size(); from += own.size()) {
+      const int half = placed[from].first;
+      take(from, half, own);
+      if (from == 0 || placed[from - 1].first != half - 1) search(half - 1, own);
+      take(from + own.size(), half + 1, next);
+      both.resize(own.size() + next.size());
+      std::merge(own.begin(), own.end(), next.begin(), next.end(), both.begin());
+      search(half, both);
+    }
+    return found;
+  }
+
+  // The points that may be of walls with this normal, half by half and then across.
+  std::vector<Placed> placedAlong(const Eigen::Vector2d& normal) const {
     const Eigen::Vector2d tangent(-normal.y(), normal.x());
     const double agreement = std::cos(kVoteAngle);
-    const double half = 0.5 * kStrip * noise_;
     std::vector<Placed> placed;
     for (const std::size_t i : left_) {
       const WallPoint& p = points_[i];
       if (normal.dot(p.normal) < agreement) continue;
-      const int strip = static_cast<int>(std::floor(tangent.dot(p.position) / half));
-      for (const int of : {strip - 1, strip}) placed.emplace_back(of, normal.dot(p.position));
+      const double half = std::floor(tangent.dot(p.position) / (kHalf * noise_));
+      placed.emplace_back(static_cast<int>(half), normal.dot(p.position));
     }
     std::sort(placed.begin(), placed.end());
-    for (std::size_t from = 0, to = 0; from < placed.size(); from = to) {
-      const int strip = placed[from].first;
-      while (to < placed.size() && placed[to].first == strip) ++to;
-      std::vector<double> across;
-      for (std::size_t k = from; k < to; ++k) across.push_back(placed[k].second);
-      DensePlace place = clearestOf(across);
-      place.normal = normal;
-      place.s_min = half * strip;
-      place.s_max = place.s_min + 2.0 * half;
-      if (place.clarity > 0.0) found.places.push_back(place);
-      found.windows += across.size();
-    }
-    return found;
+    return placed;
   }
 
   // The clearest window of a strip that begins at a point, given the points' places in order.
@@ -138,10 +156,8 @@ class Search {
     const double agreement = std::cos(kVoteAngle);
     double on = 0.0;
     double sides[2] = {0.0, 0.0};
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      if (!blocks_.mayBeNear(b, place.normal, place.offset, kBeside * noise_) ||
-          !blocks_.mayBeNear(b, tangent, 0.5 * (place.s_min + place.s_max), kStrip * noise_))
-        continue;
+    const PlanStrip around{place.normal, place.offset, kBeside * noise_, place.s_min, place.s_max};
+    blocks_.forEachIn(around, [&](std::size_t b) {
       for (std::size_t i = blocks_.begin(b); i < blocks_.end(b); ++i) {
         const WallPoint& p = points_[i];
         const double s = tangent.dot(p.position);
@@ -153,7 +169,7 @@ class Search {
           sides[d > 0.0 ? 0 : 1] += 1.0;
         }
       }
-    }
+    });
     return clarityOf(on, expectedOf(sides[0], sides[1]));
   }
 

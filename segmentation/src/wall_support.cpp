@@ -32,9 +32,16 @@ constexpr double kStray = 0.03;        // of the support, at either end
 // Square cells of (s, z) over the box of some points, which are not none.
 class CellGrid {
  public:
-  CellGrid(const LinePoints& points, double side) : side_(side) {
-    std::tie(low_.x(), high_.x()) = rangeOf(points.s);
-    std::tie(low_.y(), high_.y()) = rangeOf(points.z);
+  CellGrid(const LinePoints& points, double side)
+      : CellGrid(rangeOf(points.s), rangeOf(points.z), side) {}
+  // Of some of the points.
+  CellGrid(const LinePoints& points, const std::vector<std::size_t>& some, double side)
+      : CellGrid(rangeOf(points.s, some), rangeOf(points.z, some), side) {}
+
+  CellGrid(const std::pair<double, double>& along, const std::pair<double, double>& up, double side)
+      : side_(side) {
+    std::tie(low_.x(), high_.x()) = along;
+    std::tie(low_.y(), high_.y()) = up;
     columns_ = static_cast<std::ptrdiff_t>((high_.x() - low_.x()) / side) + 1;
     rows_ = static_cast<std::ptrdiff_t>((high_.y() - low_.y()) / side) + 1;
   }
@@ -67,14 +74,19 @@ class CellGrid {
   std::ptrdiff_t rows_ = 0;
 };
 
-// Points in cells that are filled well enough and not alone.
-LinePoints inFullCells(LinePoints near, const WallScale& scale) {
-  if (near.empty()) return near;
+// Of the points within the gate those in cells that are filled well enough and not alone.
+LinePoints inFullCells(const LinePoints& pool, double gate, const WallScale& scale) {
+  std::vector<std::size_t> near = pool.within(gate);
+  if (near.empty()) return {};
   const double side = supportCellSize(scale);
-  const CellGrid grid(near, side);
-  const std::vector<std::size_t> cell_of = grid.cellsOf(near);
+  const CellGrid grid(pool, near, side);
+  std::vector<std::size_t> cell_of;
+  cell_of.reserve(near.size());
   std::vector<int> count(grid.size(), 0);
-  for (const std::size_t cell : cell_of) ++count[cell];
+  for (const std::size_t k : near) {
+    cell_of.push_back(grid.of(pool.s[k], pool.z[k]));
+    ++count[cell_of.back()];
+  }
   const double least = std::max(1.0, kMinOccupancy * scale.density * side * side);
   const auto full = [&](std::ptrdiff_t c, std::ptrdiff_t r) {
     return c >= 0 && r >= 0 && c < grid.columns() && r < grid.rows() &&
@@ -91,8 +103,13 @@ LinePoints inFullCells(LinePoints near, const WallScale& scale) {
       kept[grid.at(c, r)] = neighbors >= kMinFullNeighbors ? 1 : 0;
     }
   }
-  near.keepWhere([&](std::size_t k) { return kept[cell_of[k]] != 0; });
-  return near;
+  std::size_t end = 0;
+  for (std::size_t n = 0; n < near.size(); ++n) {
+    near[end] = near[n];
+    end += static_cast<std::size_t>(kept[cell_of[n]]);
+  }
+  near.resize(end);
+  return pool.only(near);
 }
 
 struct Tile {
@@ -214,7 +231,7 @@ LinePoints grownAlong(const std::vector<WallPoint>& points, const std::vector<in
   LinePoints pool(points, candidates, line);
   LinePoints support;
   for (int round = 0; round < kGrowths; ++round) {
-    support = inFullCells(pool.within(cut), scale);
+    support = inFullCells(pool, cut, scale);
     if (options.steps.main_tiles) support = inMainTiles(std::move(support), scale, true);
     if (options.steps.bends) support = onOneSideOfBend(points, std::move(support), scale, line);
     if (support.empty()) return support;
@@ -300,7 +317,7 @@ std::vector<int> fitToSupport(const std::vector<WallPoint>& points,
   LinePoints pool(points, candidates, line);
   for (const double gate : kGates) {
     const double cut = gate * scale.noise;
-    support = inFullCells(pool.within(cut), scale);
+    support = inFullCells(pool, cut, scale);
     if (options.steps.setbacks) support = atMainHeights(std::move(support), scale.noise);
     if (options.steps.main_tiles) {
       support = inMainTiles(std::move(support), scale, gate < kSettled);

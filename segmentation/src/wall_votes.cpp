@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace storey::detail {
@@ -100,18 +101,25 @@ void VoteTable::voteInRow(std::size_t angle, const Ballots& ballots, int amount)
   });
   // Where votes are taken away, the strongest window stays so unless it loses some.
   if (amount < 0 && votesIn(angle, peaks_[angle].bin) == peaks_[angle].votes) return;
+  changed_[angle] = 1;
+  if (amount > 0) measurePeak(angle);
+}
+
+void VoteTable::measurePeak(std::size_t angle) {
   peaks_[angle] = strongestOf(angle);
   changed_[angle] = 0;
 }
 
 VoteTable::Peak VoteTable::strongest() {
-  Peak best;
-  for (std::size_t a = 0; a < angles_.size(); ++a) {
-    if (changed_[a] != 0) peaks_[a] = strongestOf(a);
-    changed_[a] = 0;
-    if (peaks_[a].votes > best.votes) best = peaks_[a];
+  if (peaks_.empty()) return {};
+  while (true) {
+    const auto most =
+        std::max_element(peaks_.begin(), peaks_.end(),
+                         [](const Peak& a, const Peak& b) { return a.votes < b.votes; });
+    const auto angle = static_cast<std::size_t>(most - peaks_.begin());
+    if (changed_[angle] == 0) return *most;
+    measurePeak(angle);
   }
-  return best;
 }
 
 void VoteTable::strikeOut(const Peak& peak) {
@@ -121,7 +129,9 @@ void VoteTable::strikeOut(const Peak& peak) {
 
 void VoteTable::takeBack(std::size_t strikes) {
   for (; strikes > 0; --strikes) {
-    changed_[struck_.back().angle] = 1;
+    const std::size_t angle = struck_.back().angle;
+    changed_[angle] = 1;
+    peaks_[angle].votes = std::numeric_limits<int>::max();  // there may be more than before
     struck_.pop_back();
   }
 }

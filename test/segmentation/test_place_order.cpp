@@ -104,6 +104,42 @@ TEST(PointBlocks, NoPointNearALineIsPassedOver) {
   EXPECT_GT(2 * passed, total);  // or the blocks are of no use
 }
 
+TEST(PointBlocks, AllPointsInAStripAreInTheBlocksThatAreTold) {
+  const pcl::PointCloud<pcl::PointXYZ> cloud = randomCloud(100000);
+  const auto points = toWallPoints(cloud, orderByPlace(cloud, allOf(cloud.size()), 2));
+  const PointBlocks blocks(points);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::size_t told = 0, held = 0;
+  for (int draw = 0; draw < 20; ++draw) {
+    const double angle = 2.0 * M_PI * unit(random);
+    const Eigen::Vector2d normal(std::cos(angle), std::sin(angle));
+    const Eigen::Vector2d tangent(-normal.y(), normal.x());
+    const Eigen::Vector2d middle(30.0 * unit(random), 30.0 * unit(random));
+    const PlanStrip strip{normal, normal.dot(middle), 0.5, tangent.dot(middle) - 3.0,
+                          tangent.dot(middle) + 3.0};
+    std::vector<char> is_told(blocks.size(), 0);
+    std::size_t next = 0;
+    blocks.forEachIn(strip, [&](std::size_t b) {
+      EXPECT_GE(b, next);
+      next = b + 1;
+      is_told[b] = 1;
+      ++told;
+    });
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      for (std::size_t i = blocks.begin(b); i < blocks.end(b); ++i) {
+        const double s = tangent.dot(points[i].position);
+        const double d = normal.dot(points[i].position) - strip.offset;
+        if (std::abs(d) >= strip.reach || s < strip.s_min || s > strip.s_max) continue;
+        ++held;
+        ASSERT_EQ(is_told[b], 1);
+      }
+    }
+  }
+  EXPECT_GT(held, 0U);
+  EXPECT_LT(10 * told, 20 * blocks.size());  // or they are of no use
+}
+
 TEST(GridCells, NumbersAreThoseOfAMap) {
   std::mt19937 random(3);
   std::uniform_int_distribution<std::int64_t> along(-12, 12);

@@ -17,6 +17,7 @@ using namespace storey;
 using namespace storey::test;
 using detail::findWallEnds;
 using detail::findWallLines;
+using detail::HeightDensity;
 using detail::hypothesiseLines;
 using detail::PlanLine;
 using detail::WallEnd;
@@ -50,7 +51,8 @@ void remove(std::vector<WallPoint>& points, const std::function<bool(const WallP
 
 std::vector<PlanLine> hypothesesFor(const std::vector<WallPoint>& points, double corner_gap = 0.0) {
   const WallScale scale = scaleOf(sampling());
-  return hypothesiseLines(findWallLines(points, scale, {kMinArea}), points, scale, corner_gap);
+  return hypothesiseLines(findWallLines(points, scale, {kMinArea}), points, scale,
+                          HeightDensity(points, scale), corner_gap);
 }
 
 // An end is known to kEndReach, and where only one of two is, the line goes through that one.
@@ -191,7 +193,8 @@ TEST(WallEnds, AreWhereWallsEndAndOverWhatHeight) {
   addWall({2.0, 0.0}, {12.0, 0.0}, tall, random, points);
   remove(points, [](const WallPoint& p) { return p.z > 6.0 && p.position.x() > 8.0; });
   const WallScale scale = scaleOf(tall);
-  std::vector<WallEnd> ends = findWallEnds(findWallLines(points, scale, {kMinArea}), points, scale);
+  std::vector<WallEnd> ends = findWallEnds(findWallLines(points, scale, {kMinArea}), points, scale,
+                                           HeightDensity(points, scale));
   std::sort(ends.begin(), ends.end(),
             [](const WallEnd& a, const WallEnd& b) { return a.place.x() < b.place.x(); });
   const double reach = detail::kEndReach * tall.noise;
@@ -207,7 +210,8 @@ TEST(WallEnds, AreWhereWallsEndAndOverWhatHeight) {
 }
 
 TEST(WallEnds, OfNothingThereAreNone) {
-  EXPECT_TRUE(findWallEnds({}, {}, scaleOf(sampling())).empty());
+  const WallScale scale = scaleOf(sampling());
+  EXPECT_TRUE(findWallEnds({}, {}, scale, HeightDensity({}, scale)).empty());
   EXPECT_TRUE(hypothesesFor({}).empty());
 }
 

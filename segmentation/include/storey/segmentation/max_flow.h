@@ -10,8 +10,9 @@ namespace storey {
 /// Maximum flow, and with it a minimum cut, between two terminals (the method of Boykov and
 /// Kolmogorov). Capacities are integers, so that sums are exact and a result can be repeated; the
 /// sum of all of them must fit into `Capacity`. Nodes are numbered 0 .. n-1; the terminals have no
-/// numbers. Capacities may be added after `solve`, too: the next one continues from the flow and the
-/// trees found, and looks only at what changed (Kohli and Torr).
+/// numbers. Capacities may be added after `solve`, too: the next one continues from the flow and
+/// the trees found, and looks only at what changed (Kohli and Torr). So does one after `add`: flows
+/// through two networks are one through their sum.
 class MaxFlow {
  public:
   using Capacity = std::int64_t;
@@ -32,6 +33,9 @@ class MaxFlow {
 
   /// Adds to the capacities of an edge (both >= 0).
   void raiseEdge(std::size_t edge, Capacity capacity, Capacity reverse_capacity);
+
+  /// Adds the capacities of a network with the same nodes and edges, and the flow found through it.
+  void add(const MaxFlow& other);
 
   /// The value of the maximum flow = the capacity of the minimum cut.
   Capacity solve();
@@ -88,7 +92,7 @@ class MaxFlow {
   const Arc& arc(Index index) const { return arcs_[static_cast<std::size_t>(index)]; }
 
   std::vector<Node> nodes_;
-  std::vector<Arc> arcs_;  // the reverse of arc a is a ^ 1
+  std::vector<Arc> arcs_;       // the reverse of arc a is a ^ 1
   std::vector<Index> changed_;  // nodes whose terminal has changed
   std::vector<Index> active_;
   std::vector<Index> orphans_;

@@ -46,6 +46,9 @@ std::vector<CellTerms> termsOfLayers(const LineArrangement& plan, const WallEvid
 double energyOf(const LineArrangement& plan, const CellTerms& terms, double gap,
                 const std::vector<char>& inside);
 
+/// The sum of all costs, by which energies become integers; no less than that of any part of a sum.
+double sumOfCosts(const CellTerms& terms);
+
 /// The labelling of least energy, by a minimum cut, and those of least energy that do without some
 /// walls. Cells at the border are outside. Of the labellings with the least energy it is the one
 /// with the fewest cells inside.
@@ -54,12 +57,13 @@ class LabelCut {
   /// \param gap cost of a wall where no points are, of its area
   LabelCut(const LineArrangement& plan, const CellTerms& terms, double gap);
 
-  /// For terms that are still to come, with `raiseTo`. \param most the last of them
-  static LabelCut ofRising(const LineArrangement& plan, const CellTerms& most, double gap);
+  /// In units for a sum of terms, of which these are one. \param total sum of all their costs
+  LabelCut(const LineArrangement& plan, const CellTerms& terms, double gap, double total);
 
-  /// From now on the labelling is that of these terms: those before and those of more layers.
-  /// Only what changes is solved again.
-  void raiseTo(const CellTerms& terms);
+  /// From now on the labelling is that of the sum of two terms: `own`, those so far, and `others`,
+  /// those of a cut in the same units. Of two that are solved only what they disagree on is solved
+  /// again.
+  void add(const LabelCut& other, const CellTerms& own, const CellTerms& others);
 
   /// From now on the edge must not separate inside from outside. Only what changes is solved again.
   void tie(std::size_t edge);
@@ -69,16 +73,13 @@ class LabelCut {
   std::vector<char> solve();
 
  private:
-  LabelCut(const LineArrangement& plan, double total, double gap);
   MaxFlow::Capacity integer(double value) const;
 
   const LineArrangement* plan_;
   double gap_;
   double total_;  // of all costs
   std::vector<char> tied_;
-  std::vector<MaxFlow::Capacity> guesses_;  // of each edge, so far
-  std::vector<MaxFlow::Capacity> costs_;    // of each cell inside, so far
-  MaxFlow flow_;                            // edges numbered as those of the plan
+  MaxFlow flow_;  // edges numbered as those of the plan
 };
 
 /// The labelling of least energy. \param gap as in `LabelCut` \param inside one a cell

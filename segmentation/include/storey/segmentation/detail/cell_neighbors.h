@@ -4,6 +4,7 @@
 #include <storey/segmentation/detail/line_arrangement.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace storey::detail {
@@ -18,12 +19,12 @@ class CellNeighbors {
     }
     for (std::size_t c = 0; c < size(); ++c) first_[c + 1] += first_[c];
     cells_.resize(first_.back());
-    std::vector<std::size_t> next = first_;
+    std::vector<std::uint32_t> next = first_;
     for (const PlanEdge& edge : plan.edges) {
       const auto behind = static_cast<std::size_t>(edge.behind);
       const auto ahead = static_cast<std::size_t>(edge.ahead);
-      cells_[next[behind]++] = ahead;
-      cells_[next[ahead]++] = behind;
+      cells_[next[behind]++] = static_cast<std::uint32_t>(ahead);
+      cells_[next[ahead]++] = static_cast<std::uint32_t>(behind);
     }
   }
 
@@ -33,12 +34,14 @@ class CellNeighbors {
   /// Calls `visit(neighbor)` for each edge of the cell.
   template <typename Visit>
   void forEach(std::size_t cell, const Visit& visit) const {
-    for (std::size_t i = first_[cell]; i < first_[cell + 1]; ++i) visit(cells_[i]);
+    for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+      visit(static_cast<std::size_t>(cells_[i]));
+    }
   }
 
  private:
-  std::vector<std::size_t> first_;  // of each cell's
-  std::vector<std::size_t> cells_;
+  std::vector<std::uint32_t> first_;  // of each cell's
+  std::vector<std::uint32_t> cells_;
 };
 
 }  // namespace storey::detail

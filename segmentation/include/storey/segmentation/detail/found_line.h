@@ -29,14 +29,20 @@ struct PointPool {
   /// \param free of each point, whether it is of no line yet
   PointPool(const std::vector<WallPoint>& all, const std::vector<char>& free);
 
+  /// Leaves out those that are of a line by now.
+  void shrink(const std::vector<char>& free);
+
   const std::vector<WallPoint>& points;
   std::vector<int> numbers;  ///< of those in the pool, ascending
   PointBlocks blocks;        ///< of these
 };
 
-/// The points of a pool that may be of a line whose first guess this is, ascending: near the
-/// stretch of it, and with normals within `kVoteAngle` of its own. \param free of each point,
-/// whether it is of no line yet
+/// Whether a point may be of a line whose first guess this is: near it, and its normal within
+/// `kVoteAngle` of the line's.
+bool isCandidate(const WallLine& guess, const WallPoint& p, double noise);
+
+/// The points of a pool for which that holds, ascending, near a stretch of the line. \param free of
+/// each point, whether it is of no line yet
 std::vector<int> candidatesFor(const PointPool& pool, const std::vector<char>& free,
                                const WallLine& line, double noise, const LineStretch& stretch = {});
 

@@ -41,8 +41,9 @@ struct LinePoints {
     resize(kept);
   }
 
-  /// Those with |d| below the gate.
-  LinePoints within(double gate) const;
+  /// Which of them have |d| below the gate.
+  std::vector<std::size_t> within(double gate) const;
+  LinePoints only(const std::vector<std::size_t>& kept) const;
 
   /// Changes to the coordinates of another line.
   void moveTo(const WallLine& line);
@@ -53,5 +54,8 @@ struct LinePoints {
 
 /// The least and the greatest of some values, of which there is one at least.
 std::pair<double, double> rangeOf(const std::vector<double>& values);
+/// Of some of the values alone.
+std::pair<double, double> rangeOf(const std::vector<double>& values,
+                                  const std::vector<std::size_t>& some);
 
 }  // namespace storey::detail

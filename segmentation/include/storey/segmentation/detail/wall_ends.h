@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <storey/segmentation/detail/wall_density.h>
 #include <storey/segmentation/detail/wall_points.h>
 
 #include <vector>
@@ -31,6 +32,6 @@ constexpr double kMinEndedRun = 15.0;
 /// agree to `kEndReach`.
 std::vector<WallEnd> findWallEnds(const std::vector<WallLine>& walls,
                                   const std::vector<WallPoint>& points, const WallScale& scale,
-                                  unsigned int threads = 0);
+                                  const HeightDensity& density, unsigned int threads = 0);
 
 }  // namespace storey::detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <storey/segmentation/detail/line_arrangement.h>
+#include <storey/segmentation/detail/wall_density.h>
 #include <storey/segmentation/detail/wall_points.h>
 
 #include <vector>
@@ -19,6 +20,7 @@ namespace storey::detail {
 /// \param corner_gap length by which the points of walls end short of corners
 std::vector<PlanLine> hypothesiseLines(const std::vector<WallLine>& walls,
                                        const std::vector<WallPoint>& points, const WallScale& scale,
-                                       double corner_gap, unsigned int threads = 0);
+                                       const HeightDensity& density, double corner_gap,
+                                       unsigned int threads = 0);
 
 }  // namespace storey::detail

@@ -3,6 +3,7 @@
 
 #include <pcl/types.h>
 #include <storey/segmentation/detail/method_steps.h>
+#include <storey/segmentation/detail/wall_density.h>
 #include <storey/segmentation/detail/wall_points.h>
 
 #include <vector>
@@ -34,7 +35,13 @@ constexpr std::size_t kLineSample = 250000;
 /// 8. Lines that duplicate stronger ones, or that others explain, are dropped.
 /// \return lines by support, strongest first
 std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points, const WallScale& scale,
-                                    const WallLineOptions& options);
+                                    const HeightDensity& density, const WallLineOptions& options);
+
+/// With the density measured on the points.
+inline std::vector<WallLine> findWallLines(const std::vector<WallPoint>& points,
+                                           const WallScale& scale, const WallLineOptions& options) {
+  return findWallLines(points, scale, HeightDensity(points, scale, options.threads), options);
+}
 
 /// The wall that each point is of: the line that is nearest to it among those within 3 noise
 /// deviations that its normal confirms (within 60 degrees) and whose support is at its place, or

@@ -44,6 +44,7 @@ class VoteTable {
     const auto bin = static_cast<int>((offset - low_) * bins_per_length_);
     return bin < 0 ? 0 : bin < bins_ ? bin : bins_ - 1;
   }
+  void measurePeak(std::size_t angle);
   Peak strongestOf(std::size_t angle) const;
   int votesIn(std::size_t angle, int bin) const;  // in the window about the bin
   bool struckOut(std::size_t angle, int bin) const;
@@ -58,7 +59,7 @@ class VoteTable {
   double low_ = 0.0;
   int bins_ = 0;
   std::vector<int> votes_;
-  std::vector<Peak> peaks_;    // of each angle
+  std::vector<Peak> peaks_;    // of each angle; where it changed, with no less votes than there are
   std::vector<char> changed_;  // angles whose peak is to be found again
   std::vector<Peak> struck_;
 };
