@@ -46,7 +46,7 @@ struct LoadedCloud {
 struct CloudReaderOptions {
   std::uint64_t max_bytes = kDefaultMaxFileBytes;  ///< largest file that is read, in bytes
   ReadLimits limits;
-  unsigned int threads = 1;  ///< that order the points, 0: all cores
+  unsigned int threads = 1;  ///< that read and order the points, 0: all cores
 };
 
 /// Reads a PCD (ascii, binary, binary_compressed) or PLY (ascii, binary of both byte orders) file,
