@@ -54,7 +54,7 @@ double sumOfCosts(const std::vector<CellTerms>& layers) {
 // alone (PELT; Killick, Fearnhead, Eckley 2012).
 std::vector<std::size_t> bestPartition(const LineArrangement& plan,
                                        const std::vector<CellTerms>& layers, double gap,
-                                       double cost, unsigned int threads) {
+                                       double cost, TaskCrew& crew) {
   std::vector<double> best(layers.size() + 1, std::numeric_limits<double>::infinity());
   std::vector<std::size_t> from(layers.size() + 1, 0);
   best[0] = 0.0;
@@ -62,7 +62,6 @@ std::vector<std::size_t> bestPartition(const LineArrangement& plan,
   std::vector<std::unique_ptr<LayerRange>> ranges(layers.size());
   const auto energyFrom = [&](std::size_t start) { return best[start] + ranges[start]->energy; };
   std::vector<std::size_t> open;  // starts, ascending
-  TaskCrew crew(threadsFor(threads));
   const auto ahead = static_cast<std::size_t>(crew.size());
   for (std::size_t end = 1; end <= layers.size(); ++end) {
     const std::size_t layer = end - 1;
@@ -100,16 +99,19 @@ std::vector<CellBlock> labelCells(const LineArrangement& plan, const WallEvidenc
   if (levels.size() < 2) return {};
   const std::vector<CellTerms> layers =
       termsOfLayers(plan, evidence, levels, level_points, options.level, threads);
+  TaskCrew crew(threadsFor(threads));
   const std::vector<std::size_t> bounds =
-      bestPartition(plan, layers, options.gap, options.block, threads);
-  std::vector<CellBlock> blocks;
-  for (std::size_t b = 0; b + 1 < bounds.size(); ++b) {
-    CellBlock block{levels[bounds[b]], levels[bounds[b + 1]], 0.0, {}, layers[bounds[b]], {}};
+      bestPartition(plan, layers, options.gap, options.block, crew);
+  std::vector<CellBlock> blocks(bounds.size() - 1);
+  crew.run(blocks.size(), [&](std::size_t b) {
+    CellBlock& block = blocks[b];
+    block.first_bin = levels[bounds[b]];
+    block.last_bin = levels[bounds[b + 1]];
+    block.terms = layers[bounds[b]];
     for (std::size_t l = bounds[b] + 1; l < bounds[b + 1]; ++l) block.terms.add(layers[l]);
     block.energy = minimumCut(plan, block.terms, options.gap, block.inside);
     block.measureCoverage();
-    blocks.push_back(std::move(block));
-  }
+  });
   return blocks;
 }
 

@@ -97,6 +97,7 @@ class Pruning {
 
   bool acceptIfLower(const Trial& trial) {
     Stack changed = stack();
+    outlines_.cutAhead({trial.begin(), trial.end()});  // side by side
     for (const auto& [b, edges] : trial) changed[b] = &outlines_.without(edges, b);
     std::vector<double> joints = joints_;
     for (const auto& [block, edges] : trial) joints[block] = joints[block + 1] = 0.0;

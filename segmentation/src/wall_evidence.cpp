@@ -28,13 +28,19 @@ struct EdgeTiles {
   std::vector<float> difference;  // tile by tile and bin: points ahead less points behind
   std::vector<char> occupied;     // tile by tile: whether there are points
 
+  // Calls `work(tile)` for the tiles of an edge with points.
+  template <typename Work>
+  void forEachOccupied(std::size_t edge, const Work& work) const {
+    for (std::size_t t = first[edge]; t < first[edge + 1]; ++t) {
+      if (occupied[t] != 0) work(t);
+    }
+  }
+
   // Calls `work(edge, tile)` for the tiles with points.
   template <typename Work>
   void forEachOccupied(const Work& work) const {
     for (std::size_t e = 0; e < width.size(); ++e) {
-      for (std::size_t t = first[e]; t < first[e + 1]; ++t) {
-        if (occupied[t] != 0) work(e, t);
-      }
+      forEachOccupied(e, [&](std::size_t t) { work(e, t); });
     }
   }
 
@@ -107,31 +113,42 @@ std::size_t reachOf(double density, double width, double bin) {
 
 // A tile that holds few points where the wall is thin is as much seen as the tiles below it and
 // those above it, whichever is less: so the ends of a wall stay sharp.
-void measureSeen(const EdgeTiles& tiles, unsigned int threads, WallEvidence& evidence) {
+void addSeen(const EdgeTiles& tiles, const std::vector<double>& densities, std::size_t e,
+             std::size_t t, std::vector<double>& below, WallEvidence& evidence) {
   const std::size_t bins = evidence.num_bins;
+  const double area = tiles.width[e] * evidence.bin;
+  for (std::size_t b = 0; b < bins; ++b) {
+    below[b + 1] = below[b] + tiles.difference[t * bins + b];
+  }
+  const auto shareOf = [&](std::size_t from, std::size_t to, double density) {
+    const double full = kFullDensity * density * area * static_cast<double>(to - from);
+    return std::clamp((below[to] - below[from]) / full, -1.0, 1.0);
+  };
+  for (std::size_t b = 0; b < bins; ++b) {
+    const double density = densities[b];
+    const std::size_t reach = reachOf(density, tiles.width[e], evidence.bin);
+    const double own = shareOf(b, b + 1, density);
+    const double down = shareOf(b > reach ? b - reach : 0, b + 1, density);
+    const double up = shareOf(b, std::min(bins, b + reach + 1), density);
+    const double around = std::abs(down) < std::abs(up) ? down : up;
+    const double share = down * up > 0.0 && std::abs(around) > std::abs(own) ? around : own;
+    evidence.seen[e * bins + b] += static_cast<float>(share * area);
+  }
+}
+
+void measureSeen(const EdgeTiles& tiles, unsigned int threads, WallEvidence& evidence) {
   evidence.seen.assign(evidence.ahead.size(), 0.0f);
   const std::vector<double> densities = densityByHeight(tiles, evidence.bin, threads);
-  std::vector<double> below(bins + 1, 0.0);  // running sums of a tile's column
-  tiles.forEachOccupied([&](std::size_t e, std::size_t t) {
-    const double area = tiles.width[e] * evidence.bin;
-    for (std::size_t b = 0; b < bins; ++b) {
-      below[b + 1] = below[b] + tiles.difference[t * bins + b];
+#pragma omp parallel num_threads(threadsFor(threads))
+  {
+    std::vector<double> below(evidence.num_bins + 1, 0.0);  // running sums of a tile's column
+#pragma omp for schedule(dynamic, 64)
+    for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(tiles.width.size()); ++i) {
+      const auto e = static_cast<std::size_t>(i);
+      tiles.forEachOccupied(
+          e, [&](std::size_t t) { addSeen(tiles, densities, e, t, below, evidence); });
     }
-    const auto shareOf = [&](std::size_t from, std::size_t to, double density) {
-      const double full = kFullDensity * density * area * static_cast<double>(to - from);
-      return std::clamp((below[to] - below[from]) / full, -1.0, 1.0);
-    };
-    for (std::size_t b = 0; b < bins; ++b) {
-      const double density = densities[b];
-      const std::size_t reach = reachOf(density, tiles.width[e], evidence.bin);
-      const double own = shareOf(b, b + 1, density);
-      const double down = shareOf(b > reach ? b - reach : 0, b + 1, density);
-      const double up = shareOf(b, std::min(bins, b + reach + 1), density);
-      const double around = std::abs(down) < std::abs(up) ? down : up;
-      const double share = down * up > 0.0 && std::abs(around) > std::abs(own) ? around : own;
-      evidence.seen[e * bins + b] += static_cast<float>(share * area);
-    }
-  });
+  }
 }
 
 // Finds the edge that a point is at.

@@ -28,6 +28,8 @@ constexpr double kThinMiddle = 0.7;       // of an octave of densities
 constexpr double kThinFacade = 0.25;      // of the density of all, at most
 constexpr int kMaxFailures = 40;          // peaks without support in a row
 constexpr double kMostTaken = 0.25;       // of the pool of points, by the lines found
+constexpr double kOneWall = 24.0;         // noise deviations between lines of one direction
+constexpr double kOneDirection = 0.35;    // rad, 20 degrees: peaks of one wall in other rows
 constexpr int kAhead = 4;                 // peaks tried at once, most, for each thread
 constexpr int kMaxLines = 400;            // cells grow with their square
 constexpr double kBeside = 0.25;          // points of the stronger line, of the weaker's support
@@ -111,7 +113,8 @@ class GreedyPass {
  private:
   // At the strongest peak, and if nothing is known of that at the next ones too, each without those
   // before it. A peak without a line changes nothing for the next one: the longer none was found,
-  // the more are tried at once. A line elsewhere rarely does, so that there is one for each thread.
+  // the more are tried at once. A line elsewhere rarely does, so that there is one for each thread;
+  // where the next peak may be of the same wall, it would be for nothing.
   std::vector<PeakFit> fitStrongest(int failures) {
     std::vector<PeakFit> fits;
     const int count = std::min({std::max(crew_.size(), failures), most_, kMaxFailures - failures});
@@ -121,6 +124,10 @@ class GreedyPass {
       if (peak.votes < least_votes_) break;
       table_.strikeOut(peak);
       const WallLine guess = table_.lineAt(peak);
+      if (failures == 0 && !fits.empty() && mayBeOneWall(guess, fits.front().guess)) {
+        table_.takeBack(1);
+        break;
+      }
       PeakFit fit{guess, {}};
       if (!ahead_.take(guess, fit)) missing.push_back(fits.size());
       fits.push_back(std::move(fit));
@@ -128,6 +135,11 @@ class GreedyPass {
     }
     crew_.run(missing.size(), [&](std::size_t i) { fitAt(fits[missing[i]]); });
     return fits;
+  }
+
+  bool mayBeOneWall(const WallLine& a, const WallLine& b) const {
+    if (a.normal == b.normal) return std::abs(a.offset - b.offset) < kOneWall * scale_.noise;
+    return a.normal.dot(b.normal) > std::cos(kOneDirection);
   }
 
   void fitAt(PeakFit& fit) const {
