@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/segmentation/detail/building_floorplans.h>
+#include <storey/segmentation/detail/end_evidence.h>
 #include <storey/segmentation/detail/line_refit.h>
 #include <storey/segmentation/detail/outline_faces.h>
 #include <storey/segmentation/detail/outline_pruning.h>
@@ -16,6 +17,7 @@ namespace {
 constexpr double kMargin = 0.15;     // of the box around the walls
 constexpr double kSameLine = 1.0;    // noise deviations: opposite walls on one line
 constexpr double kFaceCost = 0.5;    // of the least area of a wall
+constexpr double kBeyondEnd = 0.5;   // of the side of the least wall
 constexpr double kBlockFaces = 2.0;  // faces that one more block has at least
 // Where most of a building is missing, closing it costs more than its walls have to show, unless
 // what was not seen is taken as cheaper.
@@ -94,6 +96,7 @@ class Labeling {
         steps_(options.steps),
         threads_(options.threads),
         face_cost_(kFaceCost * options.min_wall_area),
+        least_side_(std::sqrt(options.min_wall_area)),
         box_(boxAround(input.walls)),
         result_(result) {
     energy_.block = options.block_cost > 0.0 ? options.block_cost : kBlockFaces * face_cost_;
@@ -137,6 +140,8 @@ class Labeling {
   void arrange(const std::vector<PlanLine>& lines) {
     result_.plan = arrangeLines(lines, box_.low, box_.high, kCornerTolerance * scale_.noise);
     evidence_ = gatherEvidence(result_.plan, points_, scale_, steps_.saturated_tiles, threads_);
+    noteEnds(result_.plan, result_.ends, kBeyondEnd * least_side_, kSameLine * scale_.noise,
+             evidence_);
   }
 
   void prune() {
@@ -168,6 +173,7 @@ class Labeling {
   unsigned int threads_;
   CellEnergyOptions energy_;
   double face_cost_;
+  double least_side_;  // of a wall
   double wall_area_ = 0.0;
   PlanBox box_;
   WallEvidence evidence_;
@@ -190,8 +196,10 @@ BuildingFloorplans extractBuildingFloorplans(const WallInput& input,
   if (result.walls.size() < 2) return result;
 
   if (options.steps.hypotheses) {
-    result.hypotheses = hypothesiseLines(result.walls, input.sample, sample_scale, density,
-                                         cornerGap(input.scale.density), options.threads);
+    WallHypotheses found = hypothesiseLines(result.walls, input.sample, sample_scale, density,
+                                            cornerGap(input.scale.density), options.threads);
+    result.hypotheses = std::move(found.lines);
+    result.ends = std::move(found.ends);
   }
 
   Labeling labeling(input, options, result);

@@ -148,6 +148,10 @@ CellTerms termsOfBins(const LineArrangement& plan, const WallEvidence& evidence,
       seen += static_cast<double>(evidence.seen[e * evidence.num_bins + b]);
     }
     seen = std::clamp(seen, -terms.area[e], terms.area[e]);  // sums are rounded
+    if (evidence.beyond.empty()) continue;
+    for (std::size_t b = first; b < last; ++b) {
+      terms.area[e] += static_cast<double>(evidence.beyond[e * evidence.num_bins + b]);
+    }
   }
   return terms;
 }

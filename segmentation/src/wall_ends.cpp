@@ -155,6 +155,7 @@ class EndFinder {
       if (best.score * band_ < kMinEndHeight * scale_.noise) return;
       const double s = best.places[best.places.size() / 2];
       ends.push_back({wall.offset * wall.normal + s * wall.tangent(), wall.normal,
+                      (best.far ? 1.0 : -1.0) * wall.tangent(),
                       low_ + band_ * static_cast<double>(best.first),
                       low_ + band_ * static_cast<double>(best.last + 1), best.score * band_});
       const auto taken = [&](const BandEnd& end) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace storey::detail {
@@ -59,7 +60,7 @@ class Hypotheses {
                      [](const WallEnd& a, const WallEnd& b) { return a.height > b.height; });
   }
 
-  std::vector<PlanLine> make() {
+  WallHypotheses make() {
     closing_ = likeliest(betweenEnds(true), kMaxBetween);
     // Any two ends have a line of their own: that it passes leaves an end as open as before.
     const std::vector<PlanLine> through = likeliest(throughEnds(), kMaxThrough);
@@ -67,7 +68,7 @@ class Hypotheses {
     std::vector<PlanLine> lines = closing_;
     lines.insert(lines.end(), through.begin(), through.end());
     lines.insert(lines.end(), own.begin(), own.end());
-    return lines;
+    return {lines, endsAt(lines)};
   }
 
  private:
@@ -87,10 +88,18 @@ class Hypotheses {
     });
   }
 
-  bool isClosed(const WallEnd& end) const {
-    return std::any_of(closing_.begin(), closing_.end(), [&](const PlanLine& line) {
+  bool isPassed(const WallEnd& end, const std::vector<PlanLine>& lines) const {
+    return std::any_of(lines.begin(), lines.end(), [&](const PlanLine& line) {
       return passes(line.normal, line.offset, end, kEndReach * noise_);
     });
+  }
+  bool isClosed(const WallEnd& end) const { return isPassed(end, closing_); }
+
+  std::vector<WallEnd> endsAt(const std::vector<PlanLine>& lines) const {
+    std::vector<WallEnd> ends;
+    std::copy_if(open_.begin(), open_.end(), std::back_inserter(ends),
+                 [&](const WallEnd& end) { return isPassed(end, lines); });
+    return ends;
   }
 
   // A wall that was not seen joins two that end on it, in one of the known directions or in its
@@ -157,10 +166,10 @@ class Hypotheses {
 
 }  // namespace
 
-std::vector<PlanLine> hypothesiseLines(const std::vector<WallLine>& walls,
-                                       const std::vector<WallPoint>& points, const WallScale& scale,
-                                       const HeightDensity& density, double corner_gap,
-                                       unsigned int threads) {
+WallHypotheses hypothesiseLines(const std::vector<WallLine>& walls,
+                                const std::vector<WallPoint>& points, const WallScale& scale,
+                                const HeightDensity& density, double corner_gap,
+                                unsigned int threads) {
   if (walls.empty() || points.empty()) return {};
   return Hypotheses(walls, findWallEnds(walls, points, scale, density, threads), scale.noise,
                     corner_gap)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/filters/detail/even_draw.h>
+#include <storey/surface/detail/divided_walls.h>
 #include <storey/surface/detail/fitted_model.h>
 #include <storey/surface/detail/points_by_wall.h>
 #include <storey/surface/detail/short_edges.h>
@@ -59,6 +60,9 @@ void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, Layer
   result.walls = detail::fitWalls(layers, points, fit, by_wall);
   if (options.steps.facets &&
       detail::uniteStackedWalls(result.walls, kOneWall * options.noise, layers)) {
+    result.walls = detail::fitWalls(layers, points, fit, by_wall);
+  }
+  if (detail::divideWalls(by_wall, result.walls, options.noise, options.threads, layers)) {
     result.walls = detail::fitWalls(layers, points, fit, by_wall);
   }
   by_wall = {};

@@ -21,6 +21,7 @@ using detail::HeightDensity;
 using detail::hypothesiseLines;
 using detail::PlanLine;
 using detail::WallEnd;
+using detail::WallHypotheses;
 
 constexpr double kMinArea = 2.0;
 const Corners kBox = box(0.0, 0.0, 16.0, 10.0);
@@ -49,10 +50,14 @@ void remove(std::vector<WallPoint>& points, const std::function<bool(const WallP
   points.erase(std::remove_if(points.begin(), points.end(), goes), points.end());
 }
 
-std::vector<PlanLine> hypothesesFor(const std::vector<WallPoint>& points, double corner_gap = 0.0) {
+WallHypotheses allFor(const std::vector<WallPoint>& points, double corner_gap = 0.0) {
   const WallScale scale = scaleOf(sampling());
   return hypothesiseLines(findWallLines(points, scale, {kMinArea}), points, scale,
                           HeightDensity(points, scale), corner_gap);
+}
+
+std::vector<PlanLine> hypothesesFor(const std::vector<WallPoint>& points, double corner_gap = 0.0) {
+  return allFor(points, corner_gap).lines;
 }
 
 // An end is known to kEndReach, and where only one of two is, the line goes through that one.
@@ -105,6 +110,22 @@ bool onePasses(const std::vector<PlanLine>& lines, const Corners& places) {
       return std::abs(line.across(place)) < detail::kEndReach * sampling().noise;
     });
   });
+}
+
+TEST(WallHypotheses, TheEndsOfBothNeighboursAreNamed) {
+  for (std::size_t missing = 0; missing < kBox.size(); ++missing) {
+    const std::vector<WallEnd> ends =
+        allFor(wallsWithout(kBox, {missing}, static_cast<unsigned>(missing))).ends;
+    ASSERT_EQ(ends.size(), 2U) << missing;
+    for (const std::size_t c : {missing, (missing + 1) % kBox.size()}) {
+      const Eigen::Vector2d inwards = c == missing ? kBox[(c + 3) % 4] : kBox[(c + 1) % 4];
+      const Eigen::Vector2d onward = (kBox[c] - inwards).normalized();
+      EXPECT_TRUE(std::any_of(ends.begin(), ends.end(), [&](const WallEnd& end) {
+        return (end.place - kBox[c]).norm() < detail::kEndReach * sampling().noise &&
+               end.onward.dot(onward) > 0.99;
+      })) << missing;
+    }
+  }
 }
 
 TEST(WallHypotheses, AWallOfItsOwnDirectionJoinsItsNeighbours) {

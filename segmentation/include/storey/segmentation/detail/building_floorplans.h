@@ -4,6 +4,7 @@
 #include <storey/segmentation/detail/cell_labels.h>
 #include <storey/segmentation/detail/method_steps.h>
 #include <storey/segmentation/detail/outline_trade_off.h>
+#include <storey/segmentation/detail/wall_ends.h>
 #include <storey/segmentation/detail/wall_input.h>
 #include <storey/segmentation/floorplan.h>
 
@@ -24,6 +25,7 @@ struct BuildingFloorplanOptions {
 struct BuildingFloorplans {
   std::vector<WallLine> walls;       ///< found in the points
   std::vector<PlanLine> hypotheses;  ///< lines for walls that were not seen
+  std::vector<WallEnd> ends;         ///< of walls, which these lines pass
   LineArrangement plan;              ///< of walls and hypotheses; cells of the plan
   std::vector<std::size_t> levels;   ///< bins of the layers
   double gap = 0.0;                  ///< cost of a wall not seen that was worked with

@@ -19,7 +19,8 @@ struct LevelPoint {
 
 /// What the points say about one layer, or several summed; in units of wall area.
 struct CellTerms {
-  std::vector<double> area;         ///< A_e of each edge: its length times the height
+  /// A_e of each edge: its length times the height, twice just beyond an end of a wall
+  std::vector<double> area;
   std::vector<double> signed_area;  ///< a_e in [-A_e, A_e], what its points confirm
   std::vector<double> unary;        ///< u_c of each cell, cost of being inside
 

@@ -12,6 +12,7 @@ namespace storey::detail {
 struct WallEnd {
   Eigen::Vector2d place;
   Eigen::Vector2d normal;  ///< of the wall
+  Eigen::Vector2d onward;  ///< along the wall, to where it does not go on; unit
   double z_min = 0.0;
   double z_max = 0.0;
   double height = 0.0;  ///< of the bands in which it does, less those in which it does not

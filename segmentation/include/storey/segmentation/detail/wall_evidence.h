@@ -9,7 +9,7 @@
 
 namespace storey::detail {
 
-/// What the points say of each edge of the plan at each height. All three arrays are num_edges x
+/// What the points say of each edge of the plan at each height. All arrays are num_edges x
 /// num_bins, edge by edge.
 struct WallEvidence {
   double z_min = 0.0;
@@ -20,6 +20,8 @@ struct WallEvidence {
   /// Signed area that they confirm, in [-area, area] of edge and bin: positive where the wall's
   /// outside is ahead of the line.
   std::vector<float> seen;
+  /// Area just beyond an end of a wall, where it does not go on; empty: none. See `noteEnds`.
+  std::vector<float> beyond;
 
   double heightOf(std::size_t boundary) const {
     return z_min + bin * static_cast<double>(boundary);

@@ -3,11 +3,17 @@
 
 #include <storey/segmentation/detail/line_arrangement.h>
 #include <storey/segmentation/detail/wall_density.h>
+#include <storey/segmentation/detail/wall_ends.h>
 #include <storey/segmentation/detail/wall_points.h>
 
 #include <vector>
 
 namespace storey::detail {
+
+struct WallHypotheses {
+  std::vector<PlanLine> lines;
+  std::vector<WallEnd> ends;  ///< those that a line passes
+};
 
 /// Lines for walls that were not seen. Where one is missing, its neighbours end in nothing: at one
 /// place over much of a height (`WallEnd`), where no other wall was seen. A line explains such
@@ -18,9 +24,9 @@ namespace storey::detail {
 /// two.
 /// Where all walls meet, there are none: lines that explain nothing would cut corners.
 /// \param corner_gap length by which the points of walls end short of corners
-std::vector<PlanLine> hypothesiseLines(const std::vector<WallLine>& walls,
-                                       const std::vector<WallPoint>& points, const WallScale& scale,
-                                       const HeightDensity& density, double corner_gap,
-                                       unsigned int threads = 0);
+WallHypotheses hypothesiseLines(const std::vector<WallLine>& walls,
+                                const std::vector<WallPoint>& points, const WallScale& scale,
+                                const HeightDensity& density, double corner_gap,
+                                unsigned int threads = 0);
 
 }  // namespace storey::detail
