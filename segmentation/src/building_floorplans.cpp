@@ -140,6 +140,7 @@ class Labeling {
   void arrange(const std::vector<PlanLine>& lines) {
     result_.plan = arrangeLines(lines, box_.low, box_.high, kCornerTolerance * scale_.noise);
     evidence_ = gatherEvidence(result_.plan, points_, scale_, steps_.saturated_tiles, threads_);
+    if (!steps_.wall_ends) return;
     noteEnds(result_.plan, result_.ends, kBeyondEnd * least_side_, kSameLine * scale_.noise,
              evidence_);
   }

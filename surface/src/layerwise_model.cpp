@@ -62,7 +62,8 @@ void fitAndExtrude(FitPoints points, const LayerwiseModelOptions& options, Layer
       detail::uniteStackedWalls(result.walls, kOneWall * options.noise, layers)) {
     result.walls = detail::fitWalls(layers, points, fit, by_wall);
   }
-  if (detail::divideWalls(by_wall, result.walls, options.noise, options.threads, layers)) {
+  if (options.steps.divided_walls &&
+      detail::divideWalls(by_wall, result.walls, options.noise, options.threads, layers)) {
     result.walls = detail::fitWalls(layers, points, fit, by_wall);
   }
   by_wall = {};

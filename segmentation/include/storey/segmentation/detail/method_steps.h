@@ -19,6 +19,7 @@ struct MethodSteps {
   bool leftovers = true;          ///< lines that others explain dropped
   // The labelling of the cells.
   bool hypotheses = true;       ///< lines for walls that were not seen
+  bool wall_ends = true;        ///< walls not taken beyond where they end beside one not seen
   bool saturated_tiles = true;  ///< evidence in tiles that are full at half the density; else sums
   bool pruning = true;          ///< outlines simplified
   bool transitions = true;      ///< blocks that straddle a change divided
@@ -26,6 +27,7 @@ struct MethodSteps {
   // The fits.
   bool panes = true;              ///< windows that are set back taken as a mode of their own
   bool shared_directions = true;  ///< walls that agree share one direction
+  bool divided_walls = true;      ///< walls that one line does not describe divided
   bool upright = true;            ///< the points turned by what walls lean by together
   bool unseen_walls = true;       ///< walls without points put where their neighbours end
   bool facets = true;             ///< walls taken for two united, edges of noise dropped
