@@ -23,6 +23,9 @@ to its end, the cloud read and the model written. Without: the stages alone. The
 
 constexpr const char* kStagesText = R"(
 Where the second thread helps, and where not: wall seconds of each stage of the default method, each the best of the runs.
+Wall lines are taken one after the other, each from what those before it left, and outlines are simplified edge by edge, the
+next trial on what the last one chose: `floorplans` can only work ahead where it is likely to be of use. More threads than
+two hold no more there; elsewhere the loops over points go on to scale. Files are decoded by one thread.
 
 )";
 constexpr const char* kStages[] = {"read",   "sampling", "vertical",   "orientation", "scale",
