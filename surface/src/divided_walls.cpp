@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace storey::detail {
@@ -27,23 +28,31 @@ std::size_t pieceOf(const Pieces& pieces, double along) {
   return nearer ? k - 1 : k;
 }
 
-Pieces piecesOf(const WallFrame& frame, const std::vector<FloorplanLayer>& layers, double apart) {
-  Pieces stretches;
+// Of each wall. Stretches are one piece where no gap wider than `apart` lies between them.
+std::vector<Pieces> piecesOf(const std::vector<WallFrame>& frames,
+                             const std::vector<FloorplanLayer>& layers, double apart) {
+  std::map<int, std::size_t> frame_of;
+  for (std::size_t k = 0; k < frames.size(); ++k) frame_of[frames[k].id] = k;
+  std::vector<Pieces> stretches(frames.size());
   for (const FloorplanLayer& layer : layers) {
     for (const WallStretch& stretch : stretchesOf(layer.plan)) {
-      if (stretch.wall != frame.id) continue;
+      const auto known = frame_of.find(stretch.wall);
+      if (known == frame_of.end()) continue;
+      const WallFrame& frame = frames[known->second];
       const double a = frame.tangent().dot(stretch.start - frame.reference);
-      stretches.push_back(
+      stretches[known->second].push_back(
           std::minmax({a, a + stretch.length * frame.tangent().dot(stretch.tangent)}));
     }
   }
-  std::sort(stretches.begin(), stretches.end());
-  Pieces pieces;
-  for (const auto& [from, to] : stretches) {
-    if (pieces.empty() || from > pieces.back().second + apart) {
-      pieces.emplace_back(from, to);
-    } else {
-      pieces.back().second = std::max(pieces.back().second, to);
+  std::vector<Pieces> pieces(frames.size());
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    std::sort(stretches[k].begin(), stretches[k].end());
+    for (const auto& [from, to] : stretches[k]) {
+      if (pieces[k].empty() || from > pieces[k].back().second + apart) {
+        pieces[k].emplace_back(from, to);
+      } else {
+        pieces[k].back().second = std::max(pieces[k].back().second, to);
+      }
     }
   }
   return pieces;
@@ -121,8 +130,7 @@ bool divideWalls(const PointsByWall& by_wall, const std::map<int, WallFit>& fits
                  unsigned int threads, std::vector<FloorplanLayer>& layers) {
   if (fits.empty()) return false;
   const std::vector<WallFrame>& frames = by_wall.frames();
-  std::vector<Pieces> pieces;
-  for (const WallFrame& frame : frames) pieces.push_back(piecesOf(frame, layers, kBreak * noise));
+  const std::vector<Pieces> pieces = piecesOf(frames, layers, kBreak * noise);
   const auto add = [&](std::size_t k, const WallPlace* begin, const WallPlace* end,
                        PieceMoments& sum) {
     if (pieces[k].size() < 2) return;
