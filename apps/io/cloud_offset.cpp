@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "io/point_index.h"
+#include "io/position_hash.h"
 
 namespace storey::io {
 namespace {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "io/point_index.h"
 #include "io/point_records.h"
+#include "io/position_hash.h"
 
 namespace storey::io {
 namespace {

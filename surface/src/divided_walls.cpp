@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/surface/detail/divided_walls.h>
 #include <storey/surface/detail/edge_index.h>
+#include <storey/surface/detail/plan_rings.h>
 #include <storey/surface/detail/wall_solving.h>
 
 #include <algorithm>
@@ -109,21 +110,6 @@ bool areInLine(const std::vector<WallMoments>& pieces, double apart) {
   });
 }
 
-template <typename Visit>
-void forEachEdge(std::vector<FloorplanLayer>& layers, const Visit& visit) {
-  const auto visitRing = [&](FloorplanRing& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      visit(ring.edges[i], 0.5 * (ring.vertices[i] + ring.vertices[(i + 1) % ring.size()]));
-    }
-  };
-  for (FloorplanLayer& layer : layers) {
-    for (FloorplanComponent& component : layer.plan.components) {
-      visitRing(component.outer);
-      for (FloorplanRing& hole : component.holes) visitRing(hole);
-    }
-  }
-}
-
 }  // namespace
 
 bool divideWalls(const PointsByWall& by_wall, const std::map<int, WallFit>& fits, double noise,
@@ -157,11 +143,17 @@ bool divideWalls(const PointsByWall& by_wall, const std::map<int, WallFit>& fits
     });
     if (sums.size() < 2 || !seen || areInLine(sums, kInLine * noise)) continue;
     if (isOne(sums, kFalseAlarms / static_cast<double>(frames.size()))) continue;
-    forEachEdge(layers, [&](FloorplanEdge& edge, const Eigen::Vector2d& middle) {
-      if (edge.wall != frames[k].id) return;
-      const double s = frames[k].tangent().dot(middle - frames[k].reference);
-      edge.wall = next_id + static_cast<int>(pieceOf(pieces[k], s));
-    });
+    for (FloorplanLayer& layer : layers) {
+      forEachRing(layer.plan, [&](FloorplanRing& ring) {
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+          if (ring.edges[i].wall != frames[k].id) continue;
+          const Eigen::Vector2d middle =
+              0.5 * (ring.vertices[i] + ring.vertices[(i + 1) % ring.size()]);
+          const double s = frames[k].tangent().dot(middle - frames[k].reference);
+          ring.edges[i].wall = next_id + static_cast<int>(pieceOf(pieces[k], s));
+        }
+      });
+    }
     next_id += static_cast<int>(sums.size());
     any = true;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/surface/detail/grid_layers.h>
+#include <storey/surface/detail/plan_rings.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +13,6 @@ namespace {
 constexpr double kSnapDistance = 1.0;             // grid units, from a vertex to an edge
 constexpr double kDefaultGrid = 1.0 / (1 << 20);  // of the extent
 constexpr double kMaxLatticeIndex = 4.5e15;       // 2^52: index * grid is still exact to the unit
-
-template <typename Visit>
-void forEachRing(const Floorplan& plan, Visit visit) {
-  for (const FloorplanComponent& component : plan.components) {
-    visit(component.outer);
-    for (const FloorplanRing& hole : component.holes) visit(hole);
-  }
-}
 
 struct Bounds {
   Eigen::Vector3d min = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <storey/segmentation/detail/union_find.h>
+#include <storey/surface/detail/plan_rings.h>
 #include <storey/surface/detail/stacked_walls.h>
 
 #include <algorithm>
@@ -19,29 +20,21 @@ struct Stretches {
   std::vector<Edge> edges;
 };
 
-template <typename Layers, typename Visit>
-void forEachRing(Layers& layers, Visit visit) {
-  for (std::size_t l = 0; l < layers.size(); ++l) {
-    for (auto& component : layers[l].plan.components) {
-      visit(l, component.outer);
-      for (auto& hole : component.holes) visit(l, hole);
-    }
-  }
-}
-
 // The walls that points were seen of.
 std::map<int, Stretches> stretchesOf(const std::vector<FloorplanLayer>& layers,
                                      const std::map<int, WallFit>& fits) {
   std::map<int, Stretches> walls;
-  forEachRing(layers, [&](std::size_t layer, const FloorplanRing& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const auto fit = fits.find(ring.edges[i].wall);
-      if (fit == fits.end() || fit->second.support == 0) continue;
-      Stretches& wall = walls[fit->first];
-      wall.fit = &fit->second;
-      wall.edges.push_back({layer, ring.vertices[i], ring.vertices[(i + 1) % ring.size()]});
-    }
-  });
+  for (std::size_t layer = 0; layer < layers.size(); ++layer) {
+    forEachRing(layers[layer].plan, [&](const FloorplanRing& ring) {
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const auto fit = fits.find(ring.edges[i].wall);
+        if (fit == fits.end() || fit->second.support == 0) continue;
+        Stretches& wall = walls[fit->first];
+        wall.fit = &fit->second;
+        wall.edges.push_back({layer, ring.vertices[i], ring.vertices[(i + 1) % ring.size()]});
+      }
+    });
+  }
   return walls;
 }
 
@@ -92,13 +85,15 @@ bool uniteStackedWalls(const std::map<int, WallFit>& fits, double apart,
     }
   }
   bool any = false;
-  forEachRing(layers, [&](std::size_t, FloorplanRing& ring) {
-    for (FloorplanEdge& edge : ring.edges) {
-      if (walls.count(edge.wall) == 0) continue;
-      any = any || united.find(edge.wall) != edge.wall;
-      edge.wall = united.find(edge.wall);
-    }
-  });
+  for (FloorplanLayer& layer : layers) {
+    forEachRing(layer.plan, [&](FloorplanRing& ring) {
+      for (FloorplanEdge& edge : ring.edges) {
+        if (walls.count(edge.wall) == 0) continue;
+        any = any || united.find(edge.wall) != edge.wall;
+        edge.wall = united.find(edge.wall);
+      }
+    });
+  }
   return any;
 }
 

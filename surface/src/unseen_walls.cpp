@@ -2,6 +2,7 @@
 #include <storey/filters/detail/threads.h>
 #include <storey/surface/detail/edge_index.h>
 #include <storey/surface/detail/level_fitting.h>
+#include <storey/surface/detail/plan_rings.h>
 #include <storey/surface/detail/unseen_walls.h>
 #include <storey/surface/detail/wall_corners.h>
 #include <storey/surface/floorplan_fitting.h>
@@ -25,16 +26,6 @@ constexpr double kClearTurn = 8.0;
 // Points of a wall and the area they would cover.
 double densityOf(const WallFit& fit, double area) {
   return area > 0.0 ? static_cast<double>(fit.support) / area : 0.0;
-}
-
-template <typename Visit>
-void forEachRing(const std::vector<FloorplanLayer>& layers, Visit visit) {
-  for (const FloorplanLayer& layer : layers) {
-    for (const FloorplanComponent& component : layer.plan.components) {
-      visit(layer, component.outer);
-      for (const FloorplanRing& hole : component.holes) visit(layer, hole);
-    }
-  }
 }
 
 // A corner of an unseen wall with a neighbor that is seen.
@@ -73,21 +64,23 @@ std::vector<Corner> cornersOf(int wall, const std::vector<FloorplanLayer>& layer
                               const std::map<int, WallFit>& fits,
                               const std::map<int, WallFit>& unseen) {
   std::vector<Corner> corners;
-  forEachRing(layers, [&](const FloorplanLayer& layer, const FloorplanRing& ring) {
-    const std::size_t n = ring.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      if (ring.edges[i].wall != wall) continue;
-      for (const bool next : {false, true}) {
-        const std::size_t edge = next ? (i + 1) % n : (i + n - 1) % n;
-        const auto fit = fits.find(ring.edges[edge].wall);
-        if (fit == fits.end() || unseen.count(fit->first) > 0) continue;
-        const Eigen::Vector2d& at = ring.vertices[next ? edge : i];
-        const Eigen::Vector2d& to = ring.vertices[next ? (edge + 1) % n : edge];
-        corners.push_back({at, (to - at).normalized(), fit->second.normal, (to - at).norm(),
-                           layer.z_min, layer.z_max});
+  for (const FloorplanLayer& layer : layers) {
+    detail::forEachRing(layer.plan, [&](const FloorplanRing& ring) {
+      const std::size_t n = ring.size();
+      for (std::size_t i = 0; i < n; ++i) {
+        if (ring.edges[i].wall != wall) continue;
+        for (const bool next : {false, true}) {
+          const std::size_t edge = next ? (i + 1) % n : (i + n - 1) % n;
+          const auto fit = fits.find(ring.edges[edge].wall);
+          if (fit == fits.end() || unseen.count(fit->first) > 0) continue;
+          const Eigen::Vector2d& at = ring.vertices[next ? edge : i];
+          const Eigen::Vector2d& to = ring.vertices[next ? (edge + 1) % n : edge];
+          corners.push_back({at, (to - at).normalized(), fit->second.normal, (to - at).norm(),
+                             layer.z_min, layer.z_max});
+        }
       }
-    }
-  });
+    });
+  }
   return corners;
 }
 
@@ -144,13 +137,15 @@ void fitToCorners(const std::vector<Corner>& corners, const FitPoints& points, d
 std::map<int, WallFit> detail::unseenWalls(const std::vector<FloorplanLayer>& layers,
                                            const std::map<int, WallFit>& fits) {
   std::map<int, double> areas;
-  forEachRing(layers, [&](const FloorplanLayer& layer, const FloorplanRing& ring) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      areas[ring.edges[i].wall] +=
-          (ring.vertices[(i + 1) % ring.size()] - ring.vertices[i]).norm() *
-          (layer.z_max - layer.z_min);
-    }
-  });
+  for (const FloorplanLayer& layer : layers) {
+    detail::forEachRing(layer.plan, [&](const FloorplanRing& ring) {
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        areas[ring.edges[i].wall] +=
+            (ring.vertices[(i + 1) % ring.size()] - ring.vertices[i]).norm() *
+            (layer.z_max - layer.z_min);
+      }
+    });
+  }
   std::vector<double> densities;
   for (const auto& [id, fit] : fits) densities.push_back(densityOf(fit, areas[id]));
   if (densities.empty()) return {};

@@ -20,8 +20,7 @@ struct CloudScale {
   double spacing = 0.0;  ///< median distance of a position to the nearest other one
   double extent = 0.0;   ///< diagonal of the box between the 1 % and 99 % quantiles of x, y and z
   double noise_deviation = 0.0;  ///< standard deviation of the noise's own error
-  double noise_share =
-      0.0;  ///< of the neighbourhoods that tell it, 0 to 1: others hold edges, trees
+  double noise_share = 0.0;      ///< of the neighbourhoods that tell it; others hold edges, trees
 };
 
 constexpr std::uint32_t kDefaultScaleSeed = 1;
